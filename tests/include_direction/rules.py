@@ -1,0 +1,80 @@
+"""Who may include whom. This table is the architecture; include_direction.py only reads it.
+
+A file belongs to the longest folder listed here that it is in. A folder may always include itself.
+"""
+
+import dataclasses
+
+# Header-only parts of the standard library that need neither heap, exceptions nor an operating system.
+FREESTANDING = frozenset(
+    """algorithm array bit climits compare concepts cstddef cstdint cstring initializer_list iterator limits numeric
+    optional span string_view tuple type_traits utility version""".split()
+)
+
+# C++20 as both compilers in use have it: libstdc++ 12 lacks <format> and <expected>, clang 14 cannot parse <ranges>.
+STANDARD = FREESTANDING | frozenset(
+    """any atomic barrier bitset cassert cctype cerrno cfenv cfloat charconv chrono cinttypes clocale cmath codecvt
+    complex condition_variable coroutine csetjmp csignal cstdarg cstdio cstdlib ctime cuchar cwchar cwctype deque
+    exception execution filesystem forward_list fstream functional future iomanip ios iosfwd iostream istream latch
+    list locale map memory memory_resource mutex new numbers ostream queue random ratio regex scoped_allocator
+    semaphore set shared_mutex source_location sstream stack stdexcept stop_token streambuf string strstream
+    syncstream system_error thread typeindex typeinfo unordered_map unordered_set valarray variant vector""".split()
+)
+
+# Time is an argument and runs repeat exactly: the models neither read a clock nor start threads.
+TIMELESS = STANDARD - frozenset(
+    """atomic barrier chrono condition_variable ctime future latch mutex semaphore shared_mutex stop_token
+    thread""".split()
+)
+
+ANY_SYSTEM_HEADER = None
+
+
+@dataclasses.dataclass(frozen=True)
+class Rule:
+    """What the files of one folder may include."""
+
+    folder: str
+    may_include: tuple[str, ...]  # folders, or files as shell patterns
+    system: frozenset[str] | None  # names between < and >; ANY_SYSTEM_HEADER for no limit
+
+
+# The register tables are the datasheets as data: firmware drivers and chip models read the same rows.
+REGISTER_TABLES = ("firmware/chip/register_field.hpp", "firmware/chip/*_registers.hpp")
+
+RULES = (
+    Rule("firmware/hal", (), FREESTANDING),
+    Rule("firmware/spec", (), FREESTANDING),
+    Rule("firmware/wire", ("firmware/spec", "firmware/hal/time.hpp"), FREESTANDING),
+    Rule("firmware/chip", ("firmware/hal", "firmware/spec"), FREESTANDING),
+    Rule("firmware/motion", ("firmware/chip", "firmware/hal", "firmware/spec"), FREESTANDING),
+    # Of wire, param uses the byte order alone: numbers lie in the EEPROM as they go over the line.
+    Rule("firmware/param", ("firmware/motion", "firmware/wire", "firmware/hal", "firmware/spec"), FREESTANDING),
+    Rule(
+        "firmware/tmcl",
+        ("firmware/wire", "firmware/param", "firmware/motion", "firmware/hal", "firmware/spec"),
+        FREESTANDING,
+    ),
+    Rule("firmware/module", ("firmware",), FREESTANDING),
+    # Where firmware and twin meet: the hal on the models, and a module running on it.
+    Rule("boards/twin", ("firmware/hal", "firmware/spec", "firmware/module", "twin"), STANDARD),
+    Rule("boards/size_check", ("firmware",), FREESTANDING),
+    Rule("twin/chip", REGISTER_TABLES, TIMELESS),
+    Rule("twin/physics", (), TIMELESS),
+    Rule("twin/world", ("twin/chip", "twin/physics"), TIMELESS),
+    Rule("lang", ("firmware/spec", "firmware/wire"), STANDARD),
+    Rule("client", ("firmware/spec", "firmware/wire"), ANY_SYSTEM_HEADER),
+    Rule(
+        "server",
+        ("client", "lang", "boards/twin", "twin", "firmware/hal", "firmware/spec", "firmware/wire"),
+        ANY_SYSTEM_HEADER,
+    ),
+    Rule("apps", ("firmware", "boards/twin", "twin", "lang", "client", "server"), ANY_SYSTEM_HEADER),
+    Rule("tests", ("firmware", "boards/twin", "twin", "lang", "client", "server", "apps"), ANY_SYSTEM_HEADER),
+)
+
+# A test or benchmark next to its source runs on the host: it may use these and the whole standard library on top.
+TEST_SUFFIXES = ("_test.cpp", "_test.hpp", "_bench.cpp")
+TEST_SYSTEM = STANDARD | frozenset(
+    """gtest/gtest.h gmock/gmock.h rapidcheck.h rapidcheck/gtest.h benchmark/benchmark.h""".split()
+)
