@@ -1,0 +1,24 @@
+#include "firmware/chip/tmc262_driver.hpp"
+
+namespace opentmcl {
+
+using tmc262::DriverConfiguration;
+
+void Tmc262Driver::send_all() {
+  send(driver_control);
+  send(chopper_configuration);
+  send(cool_step_control);
+  send(stall_guard_and_current);
+  send(driver_configuration);
+}
+
+tmc262::Word<tmc262::Reply> Tmc262Driver::reply(tmc262::ReplyFormat format) {
+  if (DriverConfiguration::reply_format_in(driver_configuration) != format) {
+    driver_configuration =
+        DriverConfiguration::Format::replaced(driver_configuration, static_cast<std::int32_t>(format));
+    send(driver_configuration);
+  }
+  return {spi_.transfer(tmc262::datagram(driver_control))};
+}
+
+}  // namespace opentmcl
