@@ -1,0 +1,250 @@
+#include "twin/chip/tmc429.hpp"
+
+namespace opentmcl::twin {
+namespace {
+
+using tmc429::AxisRegister;
+using tmc429::CommonRegister;
+using tmc429::ComparePositionInterrupt;
+using tmc429::Datagram;
+using tmc429::InterfaceConfiguration;
+using tmc429::Reply;
+using tmc429::Word;
+
+constexpr std::uint32_t all_data = Datagram::Data::mask;
+constexpr std::uint32_t ram_word = 0x3F3F;  // two entries of 6 bits, page 55
+
+constexpr std::int32_t no_compared_motor = 3;
+
+/// Bits of a common register that a write changes; 0 for read-only and unassigned ones.
+constexpr std::uint32_t writable_bits(CommonRegister index) {
+  using tmc429::CoverPositionAndLength;
+  using tmc429::GlobalParameters;
+  switch (index) {
+    case CommonRegister::datagram_low_word:
+    case CommonRegister::datagram_high_word:
+    case CommonRegister::power_down:
+      return all_data;  // a write of any value has the effect
+    case CommonRegister::cover_position_and_length:
+      return CoverPositionAndLength::Position::mask | CoverPositionAndLength::Length::mask;
+    case CommonRegister::cover_datagram:
+      return all_data;
+    case CommonRegister::interface_configuration:
+      return InterfaceConfiguration::EnableRightSwitches::mask | InterfaceConfiguration::ComparedMotor::mask |
+             InterfaceConfiguration::EnableStepDir::mask | InterfaceConfiguration::InvertDirection::mask |
+             InterfaceConfiguration::InvertStep::mask | InterfaceConfiguration::StepOnBothEdges::mask |
+             InterfaceConfiguration::InterruptOutput::mask | InterfaceConfiguration::InvertSwitches::mask;
+    case CommonRegister::compare_position:
+      return tmc429::ComparePosition::Value::mask;
+    case CommonRegister::compare_position_interrupt:
+      return ComparePositionInterrupt::Enabled::mask | ComparePositionInterrupt::Occurred::mask;
+    case CommonRegister::global_parameters:
+      return GlobalParameters::Motor1RightIsReference3::mask | GlobalParameters::MultiplexSwitches::mask |
+             GlobalParameters::ContinuousUpdate::mask | GlobalParameters::DriverClockDivider::mask |
+             GlobalParameters::CommonOrIndividualSelect::mask | GlobalParameters::Polarities::mask |
+             GlobalParameters::LastDriver::mask;
+    case CommonRegister::type_version:
+    case CommonRegister::reference_switches:
+      return 0;
+  }
+  return 0;
+}
+
+/// Bits that are stored but whose effect this model lacks: the right switch of the 16-pin package, and the multiplexer.
+constexpr std::uint32_t unmodelled_bits(CommonRegister index) {
+  using tmc429::GlobalParameters;
+  return index == CommonRegister::global_parameters
+             ? GlobalParameters::Motor1RightIsReference3::mask | GlobalParameters::MultiplexSwitches::mask
+             : 0;
+}
+
+}  // namespace
+
+Tmc429::Tmc429(StepListener& listener)
+    : outputs_{Tmc429StepOutput{0, listener}, Tmc429StepOutput{1, listener}, Tmc429StepOutput{2, listener}} {
+  common(CommonRegister::global_parameters) = tmc429::GlobalParameters::reset.bits;
+}
+
+std::uint32_t Tmc429::transfer(std::uint32_t datagram) {
+  powered_down_ = false;  // the falling edge of the chip select starts the clocks again
+  const std::uint32_t status = status_byte();
+  if (Datagram::Read::is_set({datagram})) {
+    return status | read(datagram);
+  }
+  write(datagram);
+  return status;
+}
+
+std::uint32_t Tmc429::status_byte() const {
+  Word<Reply> status;
+  const auto set_if = [&status](bool condition, Word<Reply> bit) {
+    if (condition) {
+      status = status | bit;
+    }
+  };
+  set_if(interrupt(), Reply::Interrupt::set);
+  set_if(axes_[0].at_target(), Reply::AtTarget1::set);
+  set_if(axes_[1].at_target(), Reply::AtTarget2::set);
+  set_if(axes_[2].at_target(), Reply::AtTarget3::set);
+  set_if(axes_[0].left_switch(), Reply::LeftSwitch1::set);
+  set_if(axes_[1].left_switch(), Reply::LeftSwitch2::set);
+  set_if(axes_[2].left_switch(), Reply::LeftSwitch3::set);
+  return status.bits;
+}
+
+std::uint32_t Tmc429::read(std::uint32_t datagram) const {
+  const auto motor = static_cast<unsigned>(Datagram::Motor::in({datagram}));
+  const auto index = static_cast<unsigned>(Datagram::Index::in({datagram}));
+  if (Datagram::Ram::is_set({datagram})) {
+    return ram_[static_cast<unsigned>(Datagram::Address::in({datagram}))];
+  }
+  return motor == tmc429::common_block ? read_common(index) : axes_[motor].read(static_cast<AxisRegister>(index));
+}
+
+std::uint32_t Tmc429::read_common(unsigned index) const {
+  switch (static_cast<CommonRegister>(index)) {
+    case CommonRegister::type_version:
+      return tmc429::TypeVersion::value;
+    case CommonRegister::reference_switches: {
+      std::uint32_t switches = 0;
+      for (unsigned motor = tmc429::motor_count; motor-- > 0;) {
+        switches = (switches << 2) | (axes_[motor].left_switch() ? 2u : 0u) | (axes_[motor].right_switch() ? 1u : 0u);
+      }
+      return switches;
+    }
+    case CommonRegister::cover_position_and_length: {
+      using tmc429::CoverPositionAndLength;
+      const Word<CoverPositionAndLength> written{common_[index]};
+      return CoverPositionAndLength::Position::replaced(written, CoverPositionAndLength::Position::in(written) + 1)
+          .bits;
+    }
+    default:
+      return common_[index];
+  }
+}
+
+void Tmc429::write(std::uint32_t datagram) {
+  const auto motor = static_cast<unsigned>(Datagram::Motor::in({datagram}));
+  const auto index = static_cast<unsigned>(Datagram::Index::in({datagram}));
+  const std::uint32_t data = tmc429::data_of(datagram);
+  std::uint32_t known_bits = 0;
+  if (Datagram::Ram::is_set({datagram})) {
+    ram_[static_cast<unsigned>(Datagram::Address::in({datagram}))] = data & ram_word;
+    known_bits = ram_word;
+  } else if (motor == tmc429::common_block) {
+    known_bits = write_common(index, data);
+  } else {
+    axes_[motor].write(static_cast<AxisRegister>(index), data);
+    known_bits = Tmc429Axis::writable_bits(static_cast<AxisRegister>(index));
+  }
+  after_position_change();
+  if ((data & ~known_bits) != 0) {
+    ++unmodelled_writes_;
+    latest_unmodelled_write_ = datagram;
+  }
+}
+
+std::uint32_t Tmc429::write_common(unsigned index, std::uint32_t data) {
+  const auto name = static_cast<CommonRegister>(index);
+  const std::uint32_t writable = writable_bits(name);
+  switch (name) {
+    case CommonRegister::power_down:
+      powered_down_ = true;
+      break;
+    case CommonRegister::datagram_low_word:
+    case CommonRegister::datagram_high_word:
+      break;  // re-arms the read-back of SPI drivers
+    case CommonRegister::compare_position_interrupt: {
+      const Word<ComparePositionInterrupt> written{data};
+      const Word<ComparePositionInterrupt> before{common_[index]};
+      const bool enabled = ComparePositionInterrupt::Enabled::is_set(written);
+      const bool occurred = ComparePositionInterrupt::Occurred::is_set(before) && enabled &&
+                            !ComparePositionInterrupt::Occurred::is_set(written);
+      common_[index] =
+          (ComparePositionInterrupt::Enabled::of(enabled) | ComparePositionInterrupt::Occurred::of(occurred)).bits;
+      break;
+    }
+    default:
+      common_[index] = data & writable;
+      break;
+  }
+  output_settings_ = {.interface_configuration = {common(CommonRegister::interface_configuration)},
+                      .global_parameters = {common(CommonRegister::global_parameters)}};
+  update_switches();
+  return writable & ~unmodelled_bits(name);
+}
+
+void Tmc429::advance(std::uint64_t clocks) {
+  clock_ += clocks;
+  if (powered_down_) {
+    stopped_clocks_ += clocks;
+    return;
+  }
+  const std::uint64_t end = (clock_ - stopped_clocks_) / tmc429::clock_prescaler;
+  for (unsigned motor = 0; motor < tmc429::motor_count; ++motor) {
+    Tmc429Axis& axis = axes_[motor];
+    while (axis.advance_to_step(end)) {
+      after_position_change();
+      const std::uint64_t step_clock = axis.now() * tmc429::clock_prescaler + stopped_clocks_;
+      outputs_[motor].step(step_clock, axis.decreasing(), output_settings_);
+    }
+    outputs_[motor].advance(clock_, output_settings_);
+  }
+}
+
+void Tmc429::set_left_switch(bool level, unsigned motor) {
+  left_pins_[motor] = level;
+  update_switches();
+}
+
+void Tmc429::set_right_switch(bool level, unsigned motor) {
+  right_pins_[motor] = level;
+  update_switches();
+}
+
+void Tmc429::update_switches() {
+  const Word<InterfaceConfiguration> configuration = output_settings_.interface_configuration;
+  const bool active_level = !InterfaceConfiguration::InvertSwitches::is_set(configuration);
+  const bool right_enabled = InterfaceConfiguration::EnableRightSwitches::is_set(configuration);
+  for (unsigned motor = 0; motor < tmc429::motor_count; ++motor) {
+    axes_[motor].set_switches(left_pins_[motor] == active_level, right_enabled && right_pins_[motor] == active_level);
+  }
+}
+
+bool Tmc429::position_compare_output() const {
+  const auto motor = InterfaceConfiguration::ComparedMotor::in(output_settings_.interface_configuration);
+  if (motor == no_compared_motor) {
+    return false;
+  }
+  using tmc429::ActualPosition;
+  const std::uint32_t position = ActualPosition::Value::of(axes_[static_cast<unsigned>(motor)].position()).bits;
+  return position == common(CommonRegister::compare_position);
+}
+
+void Tmc429::after_position_change() {
+  const bool matches = position_compare_output();
+  std::uint32_t& interrupt_word = common(CommonRegister::compare_position_interrupt);
+  if (matches && !compare_matched_ && ComparePositionInterrupt::Enabled::is_set({interrupt_word})) {
+    interrupt_word |= ComparePositionInterrupt::Occurred::set.bits;
+  }
+  compare_matched_ = matches;
+}
+
+bool Tmc429::interrupt() const {
+  for (const Tmc429Axis& axis : axes_) {
+    if (axis.interrupt()) {
+      return true;
+    }
+  }
+  return ComparePositionInterrupt::Occurred::is_set({common(CommonRegister::compare_position_interrupt)});
+}
+
+bool Tmc429::step_pin(unsigned motor) const {
+  return outputs_[motor].step_pin(clock_, output_settings_);
+}
+
+bool Tmc429::direction_pin(unsigned motor) const {
+  return outputs_[motor].direction_pin(output_settings_);
+}
+
+}  // namespace opentmcl::twin

@@ -1,0 +1,80 @@
+// The TMC429 motion controller at register level: SPI on one side, switches, STEP and DIR on the other.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "firmware/chip/tmc429_registers.hpp"
+#include "twin/chip/step_signal.hpp"
+#include "twin/chip/tmc429_axis.hpp"
+#include "twin/chip/tmc429_step_output.hpp"
+
+namespace opentmcl::twin {
+
+/// Starts in the state after power-on. What the datasheet leaves open is decided in tmc429_choices.hpp.
+///
+/// Registers that only SPI drivers use are stored and read back. Writes to bits and addresses that this model gives no
+/// meaning are counted by unmodelled_writes().
+class Tmc429 {
+ public:
+  /// `listener` hears the steps of all motors in Step/Dir mode, those of one motor in the order of time. It must
+  /// outlive this and must not call back into it.
+  explicit Tmc429(StepListener& listener);
+
+  // ---- Bus door
+
+  /// One datagram of 32 bits and its answer: the status byte, and for a read the 24 data bits of the register.
+  std::uint32_t transfer(std::uint32_t datagram);
+
+  // ---- World door
+
+  /// Lets `clocks` periods of CLK pass.
+  void advance(std::uint64_t clocks);
+  /// Periods of CLK since power-on.
+  std::uint64_t clock() const { return clock_; }
+
+  /// Levels of the pins REFn and REFRn, `motor` 0…2. Which level means "active" is up to IF_CONFIGURATION.
+  void set_left_switch(bool level, unsigned motor = 0);
+  void set_right_switch(bool level, unsigned motor = 0);
+
+  /// Level of the nINT pin: low when an interrupt is pending.
+  bool interrupt_pin() const { return !interrupt(); }
+  /// POSCMP: the selected motor stands at POS_COMP.
+  bool position_compare_output() const;
+  bool step_pin(unsigned motor = 0) const;
+  bool direction_pin(unsigned motor = 0) const;
+
+  // ---- For those who watch
+
+  std::uint64_t unmodelled_writes() const { return unmodelled_writes_; }
+  std::uint32_t latest_unmodelled_write() const { return latest_unmodelled_write_; }
+
+ private:
+  std::uint32_t status_byte() const;
+  std::uint32_t read(std::uint32_t datagram) const;
+  std::uint32_t read_common(unsigned index) const;
+  void write(std::uint32_t datagram);
+  /// Returns the bits to which it gave a meaning.
+  std::uint32_t write_common(unsigned index, std::uint32_t data);
+  void update_switches();
+  void after_position_change();
+  bool interrupt() const;
+  std::uint32_t& common(tmc429::CommonRegister index) { return common_[static_cast<unsigned>(index)]; }
+  std::uint32_t common(tmc429::CommonRegister index) const { return common_[static_cast<unsigned>(index)]; }
+
+  std::uint64_t clock_ = 0;
+  std::uint64_t stopped_clocks_ = 0;  ///< those that passed in power-down
+  bool powered_down_ = false;
+  std::array<Tmc429Axis, tmc429::motor_count> axes_;
+  std::array<Tmc429StepOutput, tmc429::motor_count> outputs_;
+  Tmc429StepOutput::Settings output_settings_;
+  std::array<bool, tmc429::motor_count> left_pins_{};
+  std::array<bool, tmc429::motor_count> right_pins_{};
+  std::array<std::uint32_t, 16> common_{};  ///< the common registers that are stored as written
+  std::array<std::uint32_t, 64> ram_{};     ///< driver chain configuration and microstep table
+  bool compare_matched_ = true;
+  std::uint64_t unmodelled_writes_ = 0;
+  std::uint32_t latest_unmodelled_write_ = 0;
+};
+
+}  // namespace opentmcl::twin

@@ -1,0 +1,45 @@
+// The STEP and DIR pins of one TMC429 axis (datasheet page 53).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "firmware/chip/tmc429_registers.hpp"
+#include "twin/chip/step_signal.hpp"
+
+namespace opentmcl::twin {
+
+class Tmc429StepOutput {
+ public:
+  /// The common registers that shape the signals.
+  struct Settings {
+    tmc429::Word<tmc429::InterfaceConfiguration> interface_configuration;
+    tmc429::Word<tmc429::GlobalParameters> global_parameters = tmc429::GlobalParameters::reset;
+  };
+
+  Tmc429StepOutput(unsigned motor, StepListener& listener) : motor_(motor), listener_(&listener) {}
+
+  /// A step of the ramp generator. After a change of direction DIR moves at once and STEP one pulse length later.
+  /// Nothing comes out while the chip serves SPI drivers.
+  void step(std::uint64_t clock, bool decreasing, const Settings& settings);
+
+  /// Gives out a delayed step whose time has come by `clock`.
+  void advance(std::uint64_t clock, const Settings& settings);
+
+  /// Level of STEP; high while the chip serves SPI drivers.
+  bool step_pin(std::uint64_t clock, const Settings& settings) const;
+  /// Level of DIR; high while the chip serves SPI drivers.
+  bool direction_pin(const Settings& settings) const;
+
+ private:
+  void give_out(std::uint64_t clock, const Settings& settings);
+
+  unsigned motor_;
+  StepListener* listener_;
+  bool decreasing_ = false;
+  bool toggled_high_ = false;                  ///< the level with step_half, before inv_stp
+  std::optional<std::uint64_t> delayed_edge_;  ///< clock at which a step after a reversal goes out
+  std::optional<std::uint64_t> latest_edge_;
+};
+
+}  // namespace opentmcl::twin

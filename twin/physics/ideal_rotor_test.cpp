@@ -1,0 +1,39 @@
+#include "twin/physics/ideal_rotor.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+namespace opentmcl::twin {
+namespace {
+
+TEST(IdealRotor, CountsWholeTurnsOfTheFieldInBothDirections) {
+  IdealRotor rotor;
+  for (std::uint32_t step = 1; step <= 3000; ++step) {
+    rotor.follow(step % IdealRotor::field_turn);
+  }
+  EXPECT_EQ(rotor.angle(), 3000);
+  for (std::uint32_t step = 3000; step-- > 0;) {
+    rotor.follow(step % IdealRotor::field_turn);
+  }
+  EXPECT_EQ(rotor.angle(), 0);
+}
+
+TEST(IdealRotor, FollowsNegativeAngles) {
+  IdealRotor rotor;
+  rotor.follow(IdealRotor::field_turn - 256);
+  EXPECT_EQ(rotor.angle(), -256);
+}
+
+RC_GTEST_PROP(IdealRotor, AlwaysStandsAtTheFieldAndNeverTurnsMoreThanHalfWay, ()) {
+  IdealRotor rotor;
+  for (const auto raw : *rc::gen::arbitrary<std::vector<std::uint16_t>>()) {
+    const std::uint32_t field = raw % IdealRotor::field_turn;
+    const std::int64_t before = rotor.angle();
+    rotor.follow(field);
+    RC_ASSERT(static_cast<std::uint64_t>(rotor.angle()) % IdealRotor::field_turn == field);
+    RC_ASSERT(std::abs(rotor.angle() - before) <= 512);
+  }
+}
+
+}  // namespace
+}  // namespace opentmcl::twin

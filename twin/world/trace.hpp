@@ -1,0 +1,35 @@
+// What happens in a World as a sequence of named signal changes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace opentmcl::twin {
+
+/// Time of a World: one tick is one clock of the TMC429, 62.5 ns.
+using Tick = std::uint64_t;
+
+inline constexpr Tick ticks_per_microsecond = 16;
+
+/// Hears every change of a signal when it happens. Ticks never run backwards within one signal.
+class TraceObserver {
+ public:
+  virtual void changed(Tick tick, std::string_view signal, std::int64_t value) = 0;
+
+ protected:
+  ~TraceObserver() = default;
+};
+
+/// Writes a trace down as text, a line `tick signal value` for every change, so that two runs can be compared.
+class TraceText : public TraceObserver {
+ public:
+  void changed(Tick tick, std::string_view signal, std::int64_t value) override;
+
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+}  // namespace opentmcl::twin

@@ -1,0 +1,108 @@
+// Everything around the microcontroller of one module: chips, wiring, pins, supply and the shaft, in one common time.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "twin/chip/eeprom.hpp"
+#include "twin/chip/step_signal.hpp"
+#include "twin/chip/tmc262.hpp"
+#include "twin/chip/tmc429.hpp"
+#include "twin/physics/ideal_rotor.hpp"
+#include "twin/world/trace.hpp"
+
+namespace opentmcl::twin {
+
+/// STEP and DIR of motor 1 go to the TMC262; both chips run on the same clock of one tick. Time moves only by
+/// advance_to(), and the same calls at the same ticks give the same trace.
+class World : private StepListener {
+ public:
+  static constexpr unsigned analog_channel_count = 4;
+
+  /// `observer`, if any, must outlive this and must not call back into it.
+  explicit World(TraceObserver* observer = nullptr);
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  /// Ticks since power-on.
+  Tick now() const { return now_; }
+  /// Lets time pass until `tick`; a tick that is not in the future changes nothing.
+  void advance_to(Tick tick);
+
+  /// Takes the supply away and gives it back: the chips lose their registers; EEPROM, shaft and bench stay as they are.
+  void power_cycle();
+
+  // ---- What the microcontroller reaches over its buses
+
+  /// A datagram of 32 bits and its answer.
+  std::uint32_t transfer_tmc429(std::uint32_t datagram);
+  /// A word of 20 bits and its reply.
+  std::uint32_t transfer_tmc262(std::uint32_t word);
+
+  bool eeprom_busy() const { return eeprom_.busy(now_); }
+  void read_eeprom(std::uint16_t address, std::uint8_t* data, std::size_t length) const;
+  void write_eeprom_page(std::uint16_t address, const std::uint8_t* data, std::size_t length);
+
+  // ---- Its pins; the board says what each bit means
+
+  std::uint32_t outputs() const { return outputs_; }
+  void set_outputs(std::uint32_t levels);
+  std::uint32_t inputs() const { return inputs_; }
+  void set_inputs(std::uint32_t levels);
+  /// ENN of the TMC262: high takes the current off the motor.
+  void set_driver_disable(bool level);
+  /// SG_TST of the TMC262.
+  bool stall_guard_output() const { return tmc262_.stall_guard_output(); }
+
+  // ---- What a person at the bench can change
+
+  /// Levels at the switch inputs of the TMC429 for motor 1; low at the start.
+  void set_left_switch(bool level);
+  void set_right_switch(bool level);
+  /// Converter value, `channel` 0…3; the board says what each channel is. 0 at the start.
+  std::int32_t analog_input(unsigned channel) const { return analog_inputs_.at(channel); }
+  void set_analog_input(unsigned channel, std::int32_t value);
+  /// Motor supply in mV, 24 V at the start.
+  std::int32_t supply_voltage() const { return supply_voltage_; }
+  void set_supply_voltage(std::int32_t millivolts);
+  /// Temperature of the board and of the driver in °C, 25 at the start.
+  std::int32_t temperature() const { return temperature_; }
+  void set_temperature(std::int32_t celsius);
+
+  // ---- What can be measured there
+
+  /// Angle of the shaft since power-on in microsteps of 1/256 full step.
+  std::int64_t rotor_angle() const { return rotor_.angle(); }
+  const Tmc429& tmc429() const { return *tmc429_; }
+  const Tmc262& tmc262() const { return tmc262_; }
+  const Eeprom& eeprom() const { return eeprom_; }
+  /// To load an image, or to cut the power within a write.
+  Eeprom& eeprom() { return eeprom_; }
+
+ private:
+  void step(const StepEvent& event) override;
+  void step_edge(bool rising, const StepEvent& event);
+  void turn_rotor();
+  void report(Tick tick, std::string_view signal, std::int64_t value);
+
+  TraceObserver* observer_;
+  Tick now_ = 0;
+  Tick powered_at_ = 0;  ///< the chips count their clocks from here
+  std::optional<Tmc429> tmc429_;
+  Tmc262 tmc262_;
+  Eeprom eeprom_;
+  IdealRotor rotor_;
+  bool direction_ = false;
+  bool left_switch_ = false;
+  bool right_switch_ = false;
+  std::uint32_t outputs_ = 0;
+  std::uint32_t inputs_ = 0;
+  std::array<std::int32_t, analog_channel_count> analog_inputs_{};
+  std::int32_t supply_voltage_ = 24'000;
+  std::int32_t temperature_ = 25;
+};
+
+}  // namespace opentmcl::twin
