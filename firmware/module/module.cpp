@@ -1,0 +1,160 @@
+#include "firmware/module/module.hpp"
+
+namespace opentmcl {
+
+Module::Module(const ModuleDescription& description, const Hal& hal)
+    : description_(description),
+      hal_(hal),
+      store_(hal.eeprom, description),
+      axis_(description.id, hal.tmc429, hal.tmc262),
+      reference_search_(axis_, hal.pins),
+      axis_parameters_(description.id, axis_, store_, hal.pins),
+      global_parameters_(description, axis_, store_),
+      program_memory_(hal.eeprom, store_, description.program_capacity),
+      executor_({description, axis_, reference_search_, axis_parameters_, global_parameters_, program_machine_,
+                 program_memory_, store_, hal.pins, hal.analog}) {}
+
+/// Brings everything up, as soon as a page write that a restart interrupted is over. @return whether it is done
+bool Module::start(Microseconds now) {
+  if (hal_.eeprom.busy()) return false;
+  store_.load();
+  global_parameters_.load_stored();
+  const bool has_magic =
+      global_parameters_.check(static_cast<std::uint8_t>(GlobalParameter::eeprom_magic), Access::r) == Status::ok;
+  constexpr std::int32_t magic =
+      global_parameters[row_of(GlobalParameter::eeprom_magic)].in(ModuleId::tmcm1110).default_value;
+  if (has_magic && global_parameters_[GlobalParameter::eeprom_magic] != magic) {
+    // Global parameter 64 was changed to ask for this.
+    store_.restore_factory_settings();
+    global_parameters_.restore_defaults();
+  }
+  axis_parameters_.load_stored();
+  axis_.initialise(global_parameters_.wiring());
+  executor_.set_outputs(0);
+  executor_.reset_tick_timer(now);
+  if (global_parameters_[GlobalParameter::auto_start] != 0 && program_memory_.is_complete()) {
+    program_machine_.run_from(0);
+  }
+  return true;
+}
+
+Microseconds Module::poll(Microseconds now) {
+  if (!started_) {
+    started_ = start(now);
+    if (!started_) return now + ParameterStore::poll_period;
+  }
+  Microseconds next = never;
+  const auto needs = [&next](Microseconds time) {
+    if (time < next) next = time;
+  };
+  for (std::uint8_t index = 0; index < hal_.port_count; ++index) needs(poll_port(index, now));
+  needs(executor_.poll(now));
+  needs(reference_search_.poll(now));
+  needs(axis_.poll(now));
+  needs(store_.poll(now));
+  needs(program_memory_.poll(now));
+  if (report_is_due_) {
+    report_position();
+    needs(now + one_millisecond);
+  }
+  if (executor_.wants_restart()) {
+    if (store_.is_written() && !hal_.eeprom.busy()) {
+      restart_requested_ = true;
+    } else {
+      needs(now + ParameterStore::poll_period);
+    }
+  }
+  return next;
+}
+
+/// Takes at most one datagram from a port. @return when the port needs the next turn
+Microseconds Module::poll_port(std::uint8_t index, Microseconds now) {
+  PortState& state = ports_[index];
+  if (!state.is_waiting) {
+    if (!receive(index, now)) return never;
+  }
+  serve(index, now);
+  if (state.is_waiting) return now + ParameterStore::poll_period;
+  // There may be more where this came from.
+  return now;
+}
+
+/// Feeds the framer. @return whether a datagram is complete
+bool Module::receive(std::uint8_t index, Microseconds now) {
+  PortState& state = ports_[index];
+  while (true) {
+    while (state.received_next < state.received_count) {
+      if (state.framer.push(state.received[state.received_next++], now)) return true;
+    }
+    state.received_next = 0;
+    state.received_count =
+        static_cast<std::uint8_t>(hal_.ports[index].bytes->read(state.received, sizeof state.received));
+    if (state.received_count == 0) return false;
+  }
+}
+
+/// Executes the datagram that is complete on a port.
+void Module::serve(std::uint8_t index, Microseconds now) {
+  PortState& state = ports_[index];
+  const hal::Port& port = hal_.ports[index];
+  Datagram reply;
+  const Handling handling = handle(state.framer.datagram(), port.kind, now, reply);
+  state.is_waiting = handling == Handling::busy;
+  if (handling == Handling::answered) port.bytes->write(reply.bytes, datagram_size);
+  if (executor_.take_reported_move()) {
+    report_port_ = index;
+    report_is_due_ = true;
+  }
+}
+
+Module::Recipient Module::recipient_of(std::uint8_t address, hal::PortKind kind) const {
+  if (kind == hal::PortKind::usb) return Recipient::this_module;
+  if (address == address_setting(GlobalParameter::serial_address)) return Recipient::this_module;
+  const std::uint8_t group = address_setting(GlobalParameter::serial_secondary_address);
+  return group != 0 && address == group ? Recipient::group : Recipient::other;
+}
+
+Datagram Module::reply_to(const Command& command, const Outcome& outcome) const {
+  const std::uint8_t host = address_setting(GlobalParameter::serial_host_address);
+  if (outcome.form == Outcome::Form::special) {
+    Datagram datagram;
+    datagram.bytes[0] = host;
+    for (std::size_t i = 0; i + 1 < datagram_size; ++i) datagram.bytes[i + 1] = executor_.special_reply()[i];
+    return datagram;
+  }
+  return encode(
+      Reply{host, address_setting(GlobalParameter::serial_address), outcome.status, command.opcode, outcome.value});
+}
+
+Module::Handling Module::handle(const Datagram& request, hal::PortKind kind, Microseconds now, Datagram& reply) {
+  const Recipient recipient = recipient_of(request.bytes[0], kind);
+  if (recipient == Recipient::other) return Handling::silent;
+  if (!request.checksum_is_right()) {
+    if (recipient == Recipient::group) return Handling::silent;
+    reply = reply_to(Command{}, {Status::wrong_checksum, 0, Outcome::Form::normal});
+    return Handling::answered;
+  }
+  const Command command = decode_request(request).command;
+  const Outcome outcome = executor_.execute_direct(command, now);
+  if (outcome.form == Outcome::Form::busy) return Handling::busy;
+  if (outcome.form == Outcome::Form::silent && outcome.status == Status::ok) return Handling::silent;
+  if (recipient == Recipient::group) return Handling::silent;
+  if (global_parameters_[GlobalParameter::suppress_reply] != 0) {
+    const auto opcode = static_cast<Opcode>(command.opcode);
+    if (opcode != Opcode::gap && opcode != Opcode::ggp && opcode != Opcode::gio) return Handling::silent;
+  }
+  reply = reply_to(command, outcome);
+  return Handling::answered;
+}
+
+/// Second reply of command 138: status 128 and the mask of the motors (PD-1161 manual 3.7.52).
+void Module::report_position() {
+  constexpr std::int32_t first_motor = 1;
+  if (!axis_.position_reached()) return;
+  report_is_due_ = false;
+  const Command command{static_cast<std::uint8_t>(Opcode::request_position_reached), 0, 0, 0};
+  const Datagram report = reply_to(command, {Status::position_reached, first_motor, Outcome::Form::normal});
+  hal_.ports[report_port_].bytes->write(report.bytes, datagram_size);
+}
+
+}  // namespace opentmcl

@@ -1,0 +1,123 @@
+#include "firmware/tmcl/executor.hpp"
+
+#include "firmware/tmcl/handlers.hpp"
+
+namespace opentmcl {
+
+namespace {
+
+/// How often a program that waits for a position or a switch looks again.
+constexpr Microseconds wait_poll_period = one_millisecond;
+
+}  // namespace
+
+Outcome Executor::execute(const Command& command, Source source, Microseconds now) {
+  const std::uint8_t row = instruction_rows[command.opcode];
+  if (row == no_row) return {Status::invalid_command, command.value, Outcome::Form::normal};
+  const InstructionCheck& check = instruction_checks.rows[row];
+  if (!contains(check.modules, parts_.description.id)) {
+    return {Status::invalid_command, command.value, Outcome::Form::normal};
+  }
+  const Where wrong_place = source == Source::direct ? Where::program_only : Where::direct_only;
+  if (check.where == wrong_place) return {Status::command_not_available, command.value, Outcome::Form::normal};
+  const Status status = check_fields(check, command, parts_.description.axis_count);
+  if (status != Status::ok) return {status, command.value, Outcome::Form::normal};
+
+  source_ = source;
+  now_ = now;
+  const Outcome outcome = Handlers::of_row(row)(*this, command);
+  if (source == Source::program && outcome.form == Outcome::Form::result && outcome.status == Status::ok) {
+    parts_.machine.registers.accumulator = outcome.value;
+    parts_.machine.registers.set_comparison(outcome.value, 0);
+  }
+  return outcome;
+}
+
+Outcome Executor::execute_direct(const Command& command, Microseconds now) {
+  if (download_mode_ && !is_control_command(command.opcode)) return store_in_program(command);
+  return execute(command, Source::direct, now);
+}
+
+Outcome Executor::store_in_program(const Command& command) {
+  if (download_address_ >= parts_.memory.capacity()) {
+    return {Status::program_memory_full, command.value, Outcome::Form::normal};
+  }
+  if (parts_.memory.write(download_address_, command) == ProgramMemory::Access::busy) {
+    return {Status::ok, 0, Outcome::Form::busy};
+  }
+  ++download_address_;
+  return {Status::command_loaded, command.value, Outcome::Form::normal};
+}
+
+bool Executor::take_reported_move() {
+  if (!reported_move_) return false;
+  reported_move_ = false;
+  if (position_report_ == PositionReport::none) return false;
+  if (position_report_ == PositionReport::next_move) position_report_ = PositionReport::none;
+  return true;
+}
+
+void Executor::set_outputs(std::uint32_t levels) {
+  outputs_ = levels;
+  parts_.pins.set_outputs(levels);
+}
+
+InterruptController::Lines Executor::interrupt_lines() {
+  InterruptController::Lines lines = 0;
+  const auto set = [&lines](Interrupt interrupt, bool level) {
+    if (level) lines |= InterruptController::bit(row_of(interrupt));
+  };
+  set(Interrupt::position_reached, parts_.axis.position_reached());
+  set(Interrupt::stop_left, parts_.axis.left_switch_active());
+  set(Interrupt::stop_right, parts_.axis.right_switch_active());
+  constexpr std::size_t first_input = row_of(Interrupt::input_0);
+  constexpr std::size_t last_input = row_of(Interrupt::input_5);
+  const std::uint32_t inputs = parts_.pins.inputs();
+  for (std::size_t row = first_input; row <= last_input; ++row) {
+    if ((inputs >> (row - first_input) & 1) != 0) lines |= InterruptController::bit(row);
+  }
+  return lines;
+}
+
+Microseconds Executor::poll(Microseconds now) {
+  ProgramMachine& machine = parts_.machine;
+  if (!machine.is_running()) return never;
+
+  if (machine.interrupts.is_active()) {
+    machine.interrupts.observe(now, interrupt_lines(), parts_.global_parameters);
+    std::uint16_t vector = 0;
+    if (!machine.is_in_interrupt() && machine.interrupts.take(vector)) machine.enter_interrupt(vector);
+  }
+
+  Command instruction;
+  if (machine.program_counter() >= parts_.memory.capacity()) {
+    machine.stop();
+    return never;
+  }
+  if (parts_.memory.read(machine.program_counter(), instruction) == ProgramMemory::Access::busy) {
+    return now + ParameterStore::poll_period;
+  }
+  machine.begin_instruction();
+  const Outcome outcome = execute(instruction, Source::program, now);
+  if (outcome.form == Outcome::Form::busy) return now + ParameterStore::poll_period;
+  // The end marker of a download, erased memory and control commands: the program ends here. Any other error, such as a
+  // value out of range, does not keep the program from going on (docs/decisions/0012-errors-in-programs.md).
+  if (outcome.status == Status::invalid_command || outcome.status == Status::command_not_available) {
+    machine.hold();
+    machine.stop();
+  }
+  machine.finish_instruction();
+  return next_turn(now);
+}
+
+Microseconds Executor::next_turn(Microseconds now) const {
+  const ProgramMachine& machine = parts_.machine;
+  if (!machine.is_running()) return never;
+  if (!machine.is_waiting()) return now;
+  Microseconds next = machine.wait_deadline();
+  const bool has_to_look = machine.is_polling_wait() || machine.interrupts.is_active();
+  if (has_to_look && now + wait_poll_period < next) next = now + wait_poll_period;
+  return next;
+}
+
+}  // namespace opentmcl

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/hal/hal.hpp"
+#include "firmware/motion/reference_search.hpp"
+#include "firmware/param/axis_parameter_access.hpp"
+#include "firmware/param/global_parameter_access.hpp"
+#include "firmware/spec/instructions.hpp"
+#include "firmware/tmcl/program_machine.hpp"
+#include "firmware/tmcl/program_memory.hpp"
+
+namespace opentmcl {
+
+/// What an instruction came to.
+struct Outcome {
+  enum class Form : std::uint8_t {
+    normal,   ///< status and value
+    result,   ///< likewise, and in a program the value goes to the accumulator and sets the flags
+    special,  ///< eight bytes of its own follow the host address: see Executor::special_reply()
+    silent,   ///< never answered
+    busy,     ///< nothing was done yet: try again on the next turn
+  };
+
+  Status status = Status::ok;
+  std::int32_t value = 0;
+  Form form = Form::normal;
+};
+
+/// Executes instructions, those of the host and those of the program by the same handlers. Only the context differs:
+/// in a program, instructions that read set the accumulator and the flags.
+class Executor {
+ public:
+  /// The parts of the module that instructions work on.
+  struct Parts {
+    const ModuleDescription& description;
+    Axis& axis;
+    ReferenceSearch& reference_search;
+    AxisParameterAccess& axis_parameters;
+    GlobalParameterAccess& global_parameters;
+    ProgramMachine& machine;
+    ProgramMemory& memory;
+    ParameterStore& store;
+    hal::Pins& pins;
+    hal::Analog& analog;
+  };
+
+  explicit Executor(const Parts& parts) : parts_(parts) {}
+
+  /// One command of a host. In download mode it is stored instead, control commands excepted.
+  Outcome execute_direct(const Command& command, Microseconds now);
+
+  /// One turn of the program: at most one instruction. @return when the next turn is needed
+  Microseconds poll(Microseconds now);
+
+  /// The eight bytes behind the host address after an outcome with Form::special.
+  const std::uint8_t* special_reply() const { return special_reply_; }
+
+  /// Commands 137 and 255 want the module to restart when their reply is sent and the EEPROM is written.
+  bool wants_restart() const { return wants_restart_; }
+
+  bool is_in_download_mode() const { return download_mode_; }
+
+  /// Target reached messages (command 138).
+  enum class PositionReport : std::uint8_t { none, next_move, every_move };
+  PositionReport position_report() const { return position_report_; }
+  /// An MVP of a host was carried out since the last call; consumes a next_move request.
+  bool take_reported_move();
+
+  void set_outputs(std::uint32_t levels);
+
+  /// Global parameter 132 reads 0 at `now`.
+  void reset_tick_timer(Microseconds now) { tick_timer_zero_ = now; }
+
+ private:
+  friend struct Handlers;
+
+  enum class Source : std::uint8_t { direct, program };
+
+  Outcome execute(const Command& command, Source source, Microseconds now);
+  Outcome store_in_program(const Command& command);
+  InterruptController::Lines interrupt_lines();
+  Microseconds next_turn(Microseconds now) const;
+
+  Parts parts_;
+  Source source_ = Source::direct;
+  Microseconds now_ = 0;
+  std::uint32_t outputs_ = 0;
+  Microseconds tick_timer_zero_ = 0;  ///< when the tick timer read 0
+  std::uint32_t random_state_ = 1;
+  std::uint16_t download_address_ = 0;
+  bool download_mode_ = false;
+  bool wants_restart_ = false;
+  bool reported_move_ = false;
+  PositionReport position_report_ = PositionReport::none;
+  std::uint8_t special_reply_[8] = {};
+};
+
+}  // namespace opentmcl

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/hal/time.hpp"
+#include "firmware/param/global_parameter_access.hpp"
+#include "firmware/spec/lookup.hpp"
+
+namespace opentmcl {
+
+/// TMCL interrupts: which are enabled, where their routines are, which have happened. Priority is the number: the
+/// lower first. Sources: PD-1161 manual 3.6.6 and 5.4.
+class InterruptController {
+ public:
+  /// State of everything that can interrupt, as bits by row of the interrupt table.
+  using Lines = std::uint32_t;
+  static_assert(interrupt_count <= 32);
+
+  static constexpr Lines bit(std::size_t row) { return Lines{1} << row; }
+
+  /// @param row of the interrupt table; that of Interrupt::global switches the processing as a whole
+  void enable(std::size_t row) { enabled_ |= bit(row); }
+  void disable(std::size_t row) { enabled_ &= ~bit(row); }
+  void set_vector(std::size_t row, std::uint16_t address);
+
+  bool is_enabled(std::size_t row) const { return (enabled_ & bit(row)) != 0; }
+  /// Some interrupt can happen at all.
+  bool is_active() const { return is_enabled(row_of(Interrupt::global)) && (enabled_ & defined_) != 0; }
+
+  /// Notes edges of `lines` and timers that ran out since the last look. What is not enabled when it happens is lost.
+  void observe(Microseconds now, Lines lines, const GlobalParameterAccess& settings);
+
+  /// The pending interrupt of the highest priority, which is then no longer pending.
+  /// @return false when there is none
+  bool take(std::uint16_t& vector);
+
+ private:
+  void observe_timer(std::size_t row, Microseconds now, Microseconds period);
+
+  static constexpr std::size_t timer_count = 3;
+  static_assert(row_of(Interrupt::timer_0) == 0 && row_of(Interrupt::timer_2) == timer_count - 1);
+
+  Lines enabled_ = 0;
+  Lines defined_ = 0;  ///< has a vector
+  Lines pending_ = 0;
+  Lines last_lines_ = 0;
+  bool has_looked_ = false;
+  std::uint16_t vectors_[interrupt_count] = {};
+  Microseconds timer_due_[timer_count] = {never, never, never};
+  Microseconds timer_period_[timer_count] = {};
+};
+
+}  // namespace opentmcl

@@ -1,0 +1,64 @@
+#include "firmware/tmcl/program_machine.hpp"
+
+namespace opentmcl {
+
+void ProgramMachine::run_from(std::uint16_t address) {
+  program_counter_ = address;
+  waiting_ = false;
+  run();
+}
+
+void ProgramMachine::reset() {
+  stop();
+  registers = Registers{};
+  program_counter_ = 0;
+  depth_ = 0;
+  waiting_ = false;
+  in_interrupt_ = false;
+}
+
+void ProgramMachine::finish_instruction() {
+  program_counter_ = next_address_;
+  if (mode_ == Mode::step) mode_ = Mode::stop;
+}
+
+void ProgramMachine::jump(std::uint16_t address) {
+  next_address_ = address;
+}
+
+void ProgramMachine::call(std::uint16_t address) {
+  if (depth_ == stack_size) return;
+  stack_[depth_++] = static_cast<std::uint16_t>(program_counter_ + 1);
+  jump(address);
+}
+
+void ProgramMachine::return_from_subroutine() {
+  if (depth_ == 0) return;
+  jump(stack_[--depth_]);
+}
+
+void ProgramMachine::enter_interrupt(std::uint16_t vector) {
+  interrupted_ = {registers, program_counter_, waiting_, wait_polls_, wait_deadline_};
+  in_interrupt_ = true;
+  waiting_ = false;
+  program_counter_ = vector;
+}
+
+void ProgramMachine::return_from_interrupt() {
+  if (!in_interrupt_) return;
+  in_interrupt_ = false;
+  registers = interrupted_.registers;
+  waiting_ = interrupted_.waiting;
+  wait_polls_ = interrupted_.wait_polls;
+  wait_deadline_ = interrupted_.wait_deadline;
+  jump(interrupted_.program_counter);
+}
+
+void ProgramMachine::begin_wait(Microseconds now, Microseconds limit, bool polling) {
+  if (waiting_) return;
+  waiting_ = true;
+  wait_polls_ = polling;
+  wait_deadline_ = limit == never ? never : now + limit;
+}
+
+}  // namespace opentmcl

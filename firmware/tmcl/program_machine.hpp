@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/hal/time.hpp"
+#include "firmware/tmcl/interrupt_controller.hpp"
+
+namespace opentmcl {
+
+/// Error flags of JC, CALL and CLE, as bits in the order of the words of CLE.
+enum class ErrorFlag : std::uint8_t { timeout = 1, external_alarm = 2, deviation = 4, position = 8, shutdown = 16 };
+
+/// What a TMCL program calculates with.
+struct Registers {
+  std::int32_t accumulator = 0;
+  std::int32_t x = 0;
+  std::int8_t comparison = 0;    ///< sign of the last comparison or value read: -1, 0 or 1
+  std::uint8_t error_flags = 0;  ///< ErrorFlag bits
+
+  void set_comparison(std::int32_t left, std::int32_t right) {
+    comparison = static_cast<std::int8_t>(left < right ? -1 : left > right ? 1 : 0);
+  }
+};
+
+/// State of the program: where it is, what it has called, whether it runs. It moves on only when the executor tells it.
+class ProgramMachine {
+ public:
+  /// Numbers as global parameter 128 and command 135 show them.
+  enum class Mode : std::uint8_t { stop = 0, run = 1, step = 2, reset = 3 };
+
+  static constexpr std::uint8_t stack_size = 8;
+
+  Registers registers;
+  InterruptController interrupts;
+
+  Mode mode() const { return mode_; }
+  bool is_running() const { return mode_ == Mode::run || mode_ == Mode::step; }
+  std::uint16_t program_counter() const { return program_counter_; }
+  bool is_waiting() const { return waiting_; }
+
+  /// Continues at the present address.
+  void run() { mode_ = Mode::run; }
+  void run_from(std::uint16_t address);
+  /// Executes one more instruction.
+  void step() { mode_ = Mode::step; }
+  /// The program counter stays, so that run() continues.
+  void stop() { mode_ = Mode::stop; }
+  /// Stops and clears program counter, stack, registers, flags and the interrupt context.
+  void reset();
+
+  /// An instruction is about to be executed: unless it says otherwise the one behind it comes next.
+  void begin_instruction() { next_address_ = static_cast<std::uint16_t>(program_counter_ + 1); }
+  /// It was executed: on to the next address.
+  void finish_instruction();
+
+  void jump(std::uint16_t address);
+  /// Ignored when the stack is full.
+  void call(std::uint16_t address);
+  /// Ignored when the stack is empty.
+  void return_from_subroutine();
+  /// Stays at the present instruction, which waits for something.
+  void hold() { next_address_ = program_counter_; }
+
+  /// Enters an interrupt routine; the context is kept until return_from_interrupt().
+  void enter_interrupt(std::uint16_t vector);
+  /// Ignored outside an interrupt routine.
+  void return_from_interrupt();
+  bool is_in_interrupt() const { return in_interrupt_; }
+
+  /// Begins a WAIT when none is under way. @param limit ends at begin + limit; `never` for no time limit
+  /// @param polling the wait is for more than time: whether it is over has to be looked at again and again
+  void begin_wait(Microseconds now, Microseconds limit, bool polling);
+  bool is_polling_wait() const { return wait_polls_; }
+  Microseconds wait_deadline() const { return wait_deadline_; }
+  void end_wait() { waiting_ = false; }
+
+ private:
+  struct Context {
+    Registers registers;
+    std::uint16_t program_counter = 0;
+    bool waiting = false;
+    bool wait_polls = false;
+    Microseconds wait_deadline = 0;
+  };
+
+  Mode mode_ = Mode::stop;
+  std::uint16_t program_counter_ = 0;
+  std::uint16_t next_address_ = 0;
+  std::uint16_t stack_[stack_size] = {};
+  std::uint8_t depth_ = 0;
+  bool waiting_ = false;
+  bool wait_polls_ = false;
+  bool in_interrupt_ = false;
+  Microseconds wait_deadline_ = 0;
+  Context interrupted_;
+};
+
+}  // namespace opentmcl
