@@ -1,0 +1,149 @@
+#include "boards/twin/virtual_module.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "firmware/module/module.hpp"
+
+namespace opentmcl {
+
+namespace {
+
+constexpr std::uint32_t bit(hal::InputPin pin) {
+  return 1U << static_cast<unsigned>(pin);
+}
+constexpr std::uint32_t bit(hal::OutputPin pin) {
+  return 1U << static_cast<unsigned>(pin);
+}
+
+}  // namespace
+
+/// firmware/hal on the models of the world: one small adapter for each device.
+class VirtualModule::Board {
+ public:
+  explicit Board(twin::World& world, const std::vector<hal::Port>& ports)
+      : tmc429_(world),
+        tmc262_(world),
+        eeprom_(world),
+        pins_(world),
+        analog_(world),
+        hal{tmc429_, tmc262_, eeprom_, pins_, analog_, ports.data(), static_cast<std::uint8_t>(ports.size())} {}
+
+ private:
+  struct MotionController final : hal::SpiDevice {
+    explicit MotionController(twin::World& w) : world(w) {}
+    std::uint32_t transfer(std::uint32_t word) override { return world.transfer_tmc429(word); }
+    twin::World& world;
+  };
+
+  struct Driver final : hal::SpiDevice {
+    explicit Driver(twin::World& w) : world(w) {}
+    std::uint32_t transfer(std::uint32_t word) override { return world.transfer_tmc262(word); }
+    twin::World& world;
+  };
+
+  struct EepromDevice final : hal::Eeprom {
+    explicit EepromDevice(twin::World& w) : world(w) {}
+    bool busy() override { return world.eeprom_busy(); }
+    void read(std::uint16_t address, std::uint8_t* data, std::size_t length) override {
+      world.read_eeprom(address, data, length);
+    }
+    void write_page(std::uint16_t address, const std::uint8_t* data, std::size_t length) override {
+      world.write_eeprom_page(address, data, length);
+    }
+    twin::World& world;
+  };
+
+  struct PinBank final : hal::Pins {
+    explicit PinBank(twin::World& w) : world(w) {}
+    std::uint32_t inputs() override {
+      return (world.inputs() & ~bit(hal::InputPin::stall_guard)) |
+             (world.stall_guard_output() ? bit(hal::InputPin::stall_guard) : 0);
+    }
+    void set_outputs(std::uint32_t levels) override {
+      world.set_outputs(levels);
+      world.set_driver_disable((levels & bit(hal::OutputPin::driver_disable)) != 0);
+    }
+    twin::World& world;
+  };
+
+  /// Where the TMCM-1110 measures its supplies, full scale of the 12-bit converter: 40 V for the motor supply, 6.6 V
+  /// for the logic supply (docs/decisions/0005-tmcm1110-io.md).
+  struct Converter final : hal::Analog {
+    explicit Converter(twin::World& w) : world(w) {}
+    std::int32_t read(hal::AnalogInput input) override {
+      constexpr std::int32_t counts = 4095;
+      constexpr std::int32_t supply_full_scale = 40'000;  // mV
+      constexpr std::int32_t logic_full_scale = 6'600;    // mV
+      constexpr std::int32_t logic_supply = 5'000;        // mV
+      switch (input) {
+        case hal::AnalogInput::ain0:
+          return world.analog_input(0);
+        case hal::AnalogInput::supply_voltage:
+          return world.supply_voltage() / 100;
+        case hal::AnalogInput::temperature:
+          return world.temperature();
+        case hal::AnalogInput::supply_counts:
+          return std::min(counts, world.supply_voltage() * counts / supply_full_scale);
+        case hal::AnalogInput::logic_supply:
+          return logic_supply * counts / logic_full_scale;
+      }
+      return 0;
+    }
+    twin::World& world;
+  };
+
+  MotionController tmc429_;
+  Driver tmc262_;
+  EepromDevice eeprom_;
+  PinBank pins_;
+  Converter analog_;
+
+ public:
+  Hal hal;
+};
+
+VirtualModule::VirtualModule(const ModuleDescription& description, std::vector<hal::Port> ports, Options options,
+                             twin::TraceObserver* observer)
+    : description_(description),
+      options_(options),
+      world_(observer),
+      ports_(std::move(ports)),
+      board_(std::make_unique<Board>(world_, ports_)) {
+  restart();
+}
+
+VirtualModule::VirtualModule(const ModuleDescription& description, std::vector<hal::Port> ports)
+    : VirtualModule(description, std::move(ports), Options{}) {}
+
+VirtualModule::~VirtualModule() = default;
+
+void VirtualModule::restart() {
+  module_ = std::make_unique<Module>(description_, board_->hal);
+  wake();
+}
+
+void VirtualModule::power_cycle() {
+  world_.power_cycle();
+  restart();
+}
+
+void VirtualModule::take_turn() {
+  const Microseconds time = now();
+  const Microseconds wanted = module_->poll(time);
+  if (module_->restart_requested()) {
+    restart();
+    return;
+  }
+  next_turn_ = std::max(wanted, time + options_.turn);
+}
+
+void VirtualModule::advance_to(Microseconds time) {
+  while (next_turn_ <= time) {
+    world_.advance_to(next_turn_ * twin::ticks_per_microsecond);
+    take_turn();
+  }
+  world_.advance_to(time * twin::ticks_per_microsecond);
+}
+
+}  // namespace opentmcl

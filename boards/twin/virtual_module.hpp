@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "firmware/hal/hal.hpp"
+#include "firmware/spec/modules.hpp"
+#include "twin/world/world.hpp"
+
+namespace opentmcl {
+
+class Module;
+
+/// A module as on the bench: the firmware on a board whose chips, motor and EEPROM are models. It only knows simulated
+/// time; the same bytes at the same times give the same replies and the same motion.
+class VirtualModule {
+ public:
+  struct Options {
+    /// Length of a turn of the firmware's main loop while a TMCL program runs: one instruction each. A property of the
+    /// microcontroller that nobody has published (docs/decisions/0008-main-loop-turn.md).
+    Microseconds turn = 100;
+  };
+
+  /// @param ports at most 4; what they point to must outlive the module
+  /// @param observer hears every signal of the world; may be nullptr, else it must outlive the module
+  VirtualModule(const ModuleDescription& description, std::vector<hal::Port> ports, Options options,
+                twin::TraceObserver* observer = nullptr);
+  VirtualModule(const ModuleDescription& description, std::vector<hal::Port> ports);
+  ~VirtualModule();
+
+  VirtualModule(const VirtualModule&) = delete;
+  VirtualModule& operator=(const VirtualModule&) = delete;
+
+  const ModuleDescription& description() const { return description_; }
+
+  /// Simulated time since the module was made.
+  Microseconds now() const { return world_.now() / twin::ticks_per_microsecond; }
+
+  /// Runs firmware and world up to and including `time`; a time in the past changes nothing.
+  void advance_to(Microseconds time);
+
+  /// Something happened outside, such as bytes on a port: the firmware takes a turn at now() in the next advance_to().
+  void wake() { next_turn_ = now(); }
+
+  /// When the firmware next needs to run if nothing happens outside; `never` while it only waits for commands.
+  Microseconds next_turn() const { return next_turn_; }
+
+  /// Takes the supply away and gives it back: registers and RAM are lost, the EEPROM and the shaft stay.
+  void power_cycle();
+
+  twin::World& world() { return world_; }
+  const twin::World& world() const { return world_; }
+  Module& module() { return *module_; }
+
+ private:
+  class Board;
+
+  void restart();
+  void take_turn();
+
+  const ModuleDescription& description_;
+  Options options_;
+  twin::World world_;
+  std::vector<hal::Port> ports_;
+  std::unique_ptr<Board> board_;
+  std::unique_ptr<Module> module_;
+  Microseconds next_turn_ = 0;
+};
+
+}  // namespace opentmcl
