@@ -44,6 +44,7 @@ inline constexpr std::uint8_t all_ports = 255;
 /// Highest value of a 12-bit analog-to-digital conversion.
 inline constexpr std::int32_t analog_maximum = 4095;
 
+// clang-format off
 inline constexpr IoPortSpec io_ports[] = {
     {IoBank::digital_inputs, 0, IoLine::input, 0, "IN0", Access::r, 0, 1, Unit::none, Modules::tmcm1110,
      "digital input 0"},
@@ -91,6 +92,7 @@ inline constexpr IoPortSpec io_ports[] = {
     {IoBank::digital_outputs, all_ports, IoLine::all_outputs, 0, "OUT_ALL", Access::rw, -1, 255, Unit::none,
      Modules::both, "all digital outputs as a bit vector; -1 takes the accumulator"},
 };
+// clang-format on
 
 inline constexpr std::size_t io_port_count = sizeof io_ports / sizeof io_ports[0];
 

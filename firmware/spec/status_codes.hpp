@@ -1,5 +1,5 @@
-// What the third byte of a reply can say. Source: PD-1161 manual 3.2.1; 7, 8, 9 from facts that no manual prints
-// (erratum E-50 region of docs/errata.md explains where each is used here).
+// What the third byte of a reply can say. Source: PD-1161 manual 3.2.1; 7, 8 and 9 stand in no manual, only in a header
+// of the vendor: they are used for what their names say.
 #pragma once
 
 #include <cstdint>
