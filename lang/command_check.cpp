@@ -1,0 +1,217 @@
+#include "lang/command_check.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "firmware/spec/axis_parameters.hpp"
+#include "firmware/spec/global_parameters.hpp"
+#include "firmware/spec/interrupts.hpp"
+#include "lang/instruction_table.hpp"
+
+namespace opentmcl::lang {
+namespace {
+
+/// From the number in a command to the row of a table; `no_row` for numbers that have none.
+constexpr std::uint8_t no_row = 255;
+
+struct RowIndex {
+  std::uint8_t rows[256];
+};
+
+template <typename Row, std::size_t count>
+consteval RowIndex make_row_index(const Row (&table)[count]) {
+  static_assert(count < no_row);
+  RowIndex index{};
+  for (std::uint8_t& row : index.rows) row = no_row;
+  for (std::size_t i = 0; i < count; ++i) {
+    index.rows[static_cast<std::uint8_t>(table[i].number)] = static_cast<std::uint8_t>(i);
+  }
+  return index;
+}
+
+constexpr RowIndex axis_parameter_rows = make_row_index(axis_parameters);
+constexpr RowIndex global_parameter_rows = make_row_index(global_parameters);
+constexpr RowIndex interrupt_rows = make_row_index(interrupts);
+
+/// Word values, read from the tables by their words.
+consteval int value_of_word(OperandKind kind, std::string_view word) {
+  const KeywordSet set = keywords_of(kind);
+  for (std::size_t i = 0; i < set.count; ++i) {
+    if (set.words[i].word == word) return set.words[i].value;
+  }
+  return -1;
+}
+
+constexpr int move_to_coordinate = value_of_word(OperandKind::mvp_mode, "COORD");
+constexpr int wait_for_ticks = value_of_word(OperandKind::wait_event, "TICKS");
+static_assert(move_to_coordinate >= 0 && wait_for_ticks >= 0);
+
+/// SCO and GCO with this motor copy coordinates between RAM and EEPROM.
+constexpr int all_motors = 255;
+
+/// What an instruction does to the parameter it names.
+Access wanted_access(Opcode opcode) {
+  switch (opcode) {
+    case Opcode::sap:
+    case Opcode::aap:
+    case Opcode::sgp:
+    case Opcode::agp:
+      return Access::w;
+    case Opcode::gap:
+    case Opcode::ggp:
+      return Access::r;
+    case Opcode::stap:
+    case Opcode::rsap:
+      return Access::e;
+    default:
+      return Access::none;
+  }
+}
+
+std::string range_text(std::int32_t minimum, std::int32_t maximum) {
+  return std::to_string(minimum) + "..." + std::to_string(maximum);
+}
+
+class CommandCheck {
+ public:
+  CommandCheck(const InstructionSpec& instruction, const Command& command, const ModuleDescription& module,
+               const Statement& statement, const Scope& scope, DiagnosticList& diagnostics)
+      : instruction_(&instruction),
+        command_(&command),
+        module_(&module),
+        statement_(&statement),
+        scope_(&scope),
+        diagnostics_(&diagnostics) {}
+
+  void run() {
+    const std::size_t count = std::min(operand_count(*instruction_), statement_->operands.size());
+    for (std::size_t i = 0; i < count; ++i) check_operand(i);
+  }
+
+ private:
+  void check_operand(std::size_t index) {
+    const OperandSpec& operand = instruction_->operands[index];
+    const std::int32_t value = operand_value(*command_, operand);
+    if (value < operand.minimum || value > operand.maximum) {
+      diagnostics_->add(DiagnosticKind::operand_out_of_range, span_of(index),
+                        std::to_string(value) + " is outside " + range_text(operand.minimum, operand.maximum) +
+                            ", the range of this operand of " + instruction_->mnemonic);
+      return;
+    }
+    switch (operand.kind) {
+      case OperandKind::motor:
+        if (instruction_->opcode != Opcode::wait || command_->type != wait_for_ticks) check_motor(index);
+        break;
+      case OperandKind::motor_group:
+        if (command_->type != move_to_coordinate) check_motor(index);
+        break;
+      case OperandKind::motor_or_all:
+        if (value != all_motors) check_motor(index);
+        break;
+      case OperandKind::axis_parameter:
+        check_axis_parameter(index);
+        break;
+      case OperandKind::global_parameter:
+        check_global_parameter(index);
+        break;
+      case OperandKind::interrupt:
+        check_interrupt(index);
+        break;
+      default:
+        break;
+    }
+  }
+
+  Span span_of(std::size_t index) const { return scope_->span_of(statement_->operands[index]); }
+
+  void check_motor(std::size_t index) {
+    if (command_->motor < module_->axis_count) return;
+    diagnostics_->add(DiagnosticKind::no_such_motor, span_of(index),
+                      "the " + describe(*module_) + " has no motor " + std::to_string(command_->motor));
+  }
+
+  void check_axis_parameter(std::size_t index) {
+    const std::uint8_t row = axis_parameter_rows.rows[command_->type];
+    if (row == no_row || axis_parameters[row].in(module_->id).access == Access::none) {
+      return missing(index, "axis parameter " + std::to_string(command_->type));
+    }
+    const AxisParameterSpec& parameter = axis_parameters[row];
+    check_parameter(index, parameter.in(module_->id), "axis parameter", parameter.name);
+  }
+
+  void check_global_parameter(std::size_t index) {
+    switch (static_cast<Bank>(command_->motor)) {
+      case Bank::module_settings:
+        return check_module_setting(index);
+      case Bank::interrupt_settings:
+        return check_interrupt_setting(index);
+      case Bank::customer:
+      case Bank::user_variables:
+        return;
+    }
+    missing(index, "bank " + std::to_string(command_->motor) + " of global parameters");
+  }
+
+  void check_module_setting(std::size_t index) {
+    const std::uint8_t row = global_parameter_rows.rows[command_->type];
+    if (row == no_row || global_parameters[row].in(module_->id).access == Access::none) {
+      return missing(index, "global parameter " + std::to_string(command_->type) + " in bank 0");
+    }
+    const GlobalParameterSpec& parameter = global_parameters[row];
+    check_parameter(index, parameter.in(module_->id), "global parameter", parameter.name);
+  }
+
+  void check_interrupt_setting(std::size_t index) {
+    const std::uint8_t row = interrupt_rows.rows[command_->type];
+    const bool exists = row != no_row && contains(interrupts[row].modules, module_->id) &&
+                        interrupts[row].setting != InterruptSetting::none;
+    if (!exists) missing(index, "global parameter " + std::to_string(command_->type) + " in bank 3");
+  }
+
+  void check_interrupt(std::size_t index) {
+    const std::uint8_t row = interrupt_rows.rows[command_->type];
+    const bool exists = row != no_row && contains(interrupts[row].modules, module_->id);
+    if (!exists) missing(index, "interrupt " + std::to_string(command_->type));
+  }
+
+  void missing(std::size_t index, const std::string& what) {
+    diagnostics_->add(DiagnosticKind::no_such_parameter, span_of(index),
+                      "the " + describe(*module_) + " has no " + what);
+  }
+
+  void check_parameter(std::size_t index, const ParameterColumn& column, const char* what, const char* name) {
+    const Access wanted = wanted_access(instruction_->opcode);
+    const auto described = [&] { return std::string(what) + " " + std::to_string(command_->type) + " (" + name + ")"; };
+    if (wanted != Access::none && !allows(column.access, wanted)) {
+      const char* const reason = wanted == Access::w   ? " can only be read"
+                                 : wanted == Access::r ? " can only be written"
+                                                       : " cannot be stored in the EEPROM of this module";
+      diagnostics_->add(DiagnosticKind::parameter_not_accessible, span_of(index), described() + reason);
+      return;
+    }
+    const bool sets_value = instruction_->opcode == Opcode::sap || instruction_->opcode == Opcode::sgp;
+    if (!sets_value || (command_->value >= column.minimum && command_->value <= column.maximum)) return;
+    diagnostics_->add(DiagnosticKind::parameter_out_of_range, span_of(operand_count(*instruction_) - 1),
+                      std::to_string(command_->value) + " is outside " + range_text(column.minimum, column.maximum) +
+                          ", the range of " + described());
+  }
+
+  const InstructionSpec* instruction_;
+  const Command* command_;
+  const ModuleDescription* module_;
+  const Statement* statement_;
+  const Scope* scope_;
+  DiagnosticList* diagnostics_;
+};
+
+}  // namespace
+
+void check_command(const InstructionSpec& instruction, const Command& command, const ModuleDescription& module,
+                   const Statement& statement, const Scope& scope, DiagnosticList& diagnostics) {
+  CommandCheck(instruction, command, module, statement, scope, diagnostics).run();
+}
+
+}  // namespace opentmcl::lang

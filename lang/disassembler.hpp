@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "firmware/spec/modules.hpp"
+#include "firmware/wire/datagram.hpp"
+
+namespace opentmcl::lang {
+
+/// An instruction in mnemonic form, "MVP ABS, 0, 1000", or why it has none.
+struct DisassembledInstruction {
+  std::optional<std::string> text;
+  std::string reason;  ///< if there is no text
+};
+
+/// Inverse of the assembler: what it gives for the text is `command` again. There is no text for opcodes without a
+/// mnemonic in this module, for numbers in fields the instruction does not use, and for numbers where only words have a
+/// meaning.
+DisassembledInstruction disassemble_instruction(const Command& command, const ModuleDescription& module);
+
+struct Inexpressible {
+  std::size_t address;
+  Command command;
+  std::string reason;
+};
+
+struct Disassembly {
+  /// Source that assembles, without appending STOP, to the same program; a comment where an instruction has no text.
+  std::string text;
+  std::vector<Inexpressible> problems;  ///< if any, the text is for reading only
+};
+
+/// Addresses within the program (or just behind it) that instructions jump to become labels `L_n`.
+Disassembly disassemble(const std::vector<Command>& commands, const ModuleDescription& module);
+
+}  // namespace opentmcl::lang

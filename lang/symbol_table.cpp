@@ -1,0 +1,56 @@
+#include "lang/symbol_table.hpp"
+
+#include <utility>
+
+#include "lang/names.hpp"
+
+namespace opentmcl::lang {
+namespace {
+
+constexpr std::size_t initial_slots = 512;
+
+}  // namespace
+
+SymbolTable::SymbolTable() : slots_(initial_slots) {}
+
+const Symbol* SymbolTable::find(std::string_view name) const {
+  const Slot& slot = slots_[slot_of(name, hash_of_name(name))];
+  return slot.number == 0 ? nullptr : &symbols_[slot.number - 1];
+}
+
+const Symbol* SymbolTable::insert(const Symbol& symbol) {
+  const std::uint32_t hash = hash_of_name(symbol.name);
+  std::size_t at = slot_of(symbol.name, hash);
+  if (slots_[at].number != 0) return &symbols_[slots_[at].number - 1];
+  if (2 * (symbols_.size() + 1) > slots_.size()) {
+    grow();
+    at = slot_of(symbol.name, hash);
+  }
+  symbols_.push_back(symbol);
+  slots_[at] = {hash, static_cast<std::uint32_t>(symbols_.size())};
+  return nullptr;
+}
+
+std::size_t SymbolTable::slot_of(std::string_view name, std::uint32_t hash) const {
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t at = hash & mask;
+  while (slots_[at].number != 0 &&
+         (slots_[at].hash != hash || !is_same_name(symbols_[slots_[at].number - 1].name, name))) {
+    at = (at + 1) & mask;
+  }
+  return at;
+}
+
+void SymbolTable::grow() {
+  std::vector<Slot> larger(2 * slots_.size());
+  const std::size_t mask = larger.size() - 1;
+  for (const Slot& slot : slots_) {
+    if (slot.number == 0) continue;
+    std::size_t at = slot.hash & mask;
+    while (larger[at].number != 0) at = (at + 1) & mask;
+    larger[at] = slot;
+  }
+  slots_ = std::move(larger);
+}
+
+}  // namespace opentmcl::lang

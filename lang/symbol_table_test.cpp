@@ -1,0 +1,64 @@
+#include "lang/symbol_table.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "lang/names.hpp"
+
+namespace opentmcl::lang {
+namespace {
+
+TEST(SymbolTable, FindsNamesIgnoringCase) {
+  SymbolTable table;
+  EXPECT_EQ(table.find("MaxSpeed"), nullptr);
+  EXPECT_EQ(table.insert({"MaxSpeed", SymbolKind::constant, 5, {}}), nullptr);
+  ASSERT_NE(table.find("MAXspeed"), nullptr);
+  EXPECT_EQ(table.find("MAXspeed")->value, 5);
+  EXPECT_EQ(table.find("MaxSpeed1"), nullptr);
+}
+
+TEST(SymbolTable, KeepsTheFirstOfTwoSymbolsWithOneName) {
+  SymbolTable table;
+  table.insert({"a", SymbolKind::constant, 1, {}});
+  const Symbol* const taken = table.insert({"A", SymbolKind::label, 2, {}});
+  ASSERT_NE(taken, nullptr);
+  EXPECT_EQ(taken->value, 1);
+  EXPECT_EQ(table.symbols().size(), 1U);
+}
+
+RC_GTEST_PROP(SymbolTable, HoldsWhatAMapHolds, ()) {
+  const auto names = *rc::gen::container<std::vector<std::string>>(
+      rc::gen::nonEmpty(rc::gen::container<std::string>(rc::gen::elementOf(std::string("aAbB_1")))));
+  SymbolTable table;
+  std::map<std::string, double> expected;
+  double value = 0;
+  for (const std::string& name : names) {
+    std::string upper;
+    for (const char c : name) upper += to_upper(c);
+    const bool is_new = expected.emplace(upper, value).second;
+    RC_ASSERT((table.insert({name, SymbolKind::constant, value, {}}) == nullptr) == is_new);
+    value += 1;
+  }
+  for (const auto& [name, number] : expected) {
+    const Symbol* const symbol = table.find(name);
+    RC_ASSERT(symbol != nullptr);
+    RC_ASSERT(symbol->value == number);
+  }
+}
+
+TEST(SymbolTable, GrowsWithoutLosingNames) {
+  std::vector<std::string> names;
+  for (int i = 0; i < 5000; ++i) names.push_back("Name" + std::to_string(i));
+  SymbolTable table;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    table.insert({names[i], SymbolKind::label, static_cast<double>(i), {}});
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(table.find(names[i])->value, static_cast<double>(i));
+}
+
+}  // namespace
+}  // namespace opentmcl::lang

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace opentmcl::lang {
+
+enum class TokenKind : std::uint8_t {
+  name,
+  number,
+  comma,
+  colon,
+  equals,
+  plus,
+  minus,
+  star,
+  slash,
+  caret,
+  open,
+  close,
+  directive,             ///< # and all that follows it but the comment
+  unexpected_character,  ///< one character, all bytes of it
+  malformed_number,
+  number_too_large,
+  end_of_line,  ///< nothing, where the line or its comment ends
+};
+
+/// A word or sign of a source; comments and blanks are none.
+struct Token {
+  TokenKind kind = TokenKind::end_of_line;
+  std::uint32_t offset = 0;
+  std::uint32_t length = 0;
+  double number = 0;  ///< of TokenKind::number
+
+  std::uint32_t end() const { return offset + length; }
+  std::string_view text(std::string_view source) const { return source.substr(offset, length); }
+};
+
+using Tokens = std::vector<Token>;
+
+}  // namespace opentmcl::lang
