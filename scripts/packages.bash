@@ -10,7 +10,7 @@ packages_to_build=(
 packages_to_test=(libgtest-dev libgmock-dev librapidcheck-dev python3 python3-serial)
 # shellcheck disable=SC2034
 packages_to_check=(
-  git clang-format clang-tidy shellcheck
+  git clang-format clang-tidy shellcheck valgrind libbenchmark-dev
   gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib
 )
 

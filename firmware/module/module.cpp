@@ -35,10 +35,16 @@ bool Module::start(Microseconds now) {
   if (global_parameters_[GlobalParameter::auto_start] != 0 && program_memory_.is_complete()) {
     program_machine_.run_from(0);
   }
+  for (std::uint8_t index = 0; index < hal_.port_count; ++index) {
+    lines_end_->bytes = hal_.ports[index].bytes;
+    lines_end_->kind = hal_.ports[index].kind;
+    ++lines_end_;
+  }
   return true;
 }
 
-Microseconds Module::poll(Microseconds now) {
+/// Everything but the ports. @return when it is needed again
+Microseconds Module::poll_parts(Microseconds now) {
   if (!started_) {
     started_ = start(now);
     if (!started_) return now + ParameterStore::poll_period;
@@ -47,13 +53,12 @@ Microseconds Module::poll(Microseconds now) {
   const auto needs = [&next](Microseconds time) {
     if (time < next) next = time;
   };
-  for (std::uint8_t index = 0; index < hal_.port_count; ++index) needs(poll_port(index, now));
   needs(executor_.poll(now));
   needs(reference_search_.poll(now));
   needs(axis_.poll(now));
   needs(store_.poll(now));
   needs(program_memory_.poll(now));
-  if (report_is_due_) {
+  if (report_line_ != nullptr) {
     report_position();
     needs(now + one_millisecond);
   }
@@ -64,47 +69,21 @@ Microseconds Module::poll(Microseconds now) {
       needs(now + ParameterStore::poll_period);
     }
   }
+  // A program may wait for an input, and any turn may be the one that sees it.
+  parts_due_ = program_machine_.is_running() ? now : next;
   return next;
 }
 
-/// Takes at most one datagram from a port. @return when the port needs the next turn
-Microseconds Module::poll_port(std::uint8_t index, Microseconds now) {
-  PortState& state = ports_[index];
-  if (!state.is_waiting) {
-    if (!receive(index, now)) return never;
-  }
-  serve(index, now);
-  if (state.is_waiting) return now + ParameterStore::poll_period;
+/// Executes the datagram that is complete on a line. @return when the line needs the next turn
+Microseconds Module::serve(Line& line, Microseconds now) {
+  Datagram reply;
+  const Handling handling = handle(line.framer.datagram(), line.kind, now, reply);
+  if (handling == Handling::busy) return now + ParameterStore::poll_period;
+  line.framer.reset();
+  if (handling == Handling::answered) line.bytes->write(reply.bytes, datagram_size);
+  if (executor_.take_reported_move()) report_line_ = &line;
   // There may be more where this came from.
   return now;
-}
-
-/// Feeds the framer. @return whether a datagram is complete
-bool Module::receive(std::uint8_t index, Microseconds now) {
-  PortState& state = ports_[index];
-  while (true) {
-    while (state.received_next < state.received_count) {
-      if (state.framer.push(state.received[state.received_next++], now)) return true;
-    }
-    state.received_next = 0;
-    state.received_count =
-        static_cast<std::uint8_t>(hal_.ports[index].bytes->read(state.received, sizeof state.received));
-    if (state.received_count == 0) return false;
-  }
-}
-
-/// Executes the datagram that is complete on a port.
-void Module::serve(std::uint8_t index, Microseconds now) {
-  PortState& state = ports_[index];
-  const hal::Port& port = hal_.ports[index];
-  Datagram reply;
-  const Handling handling = handle(state.framer.datagram(), port.kind, now, reply);
-  state.is_waiting = handling == Handling::busy;
-  if (handling == Handling::answered) port.bytes->write(reply.bytes, datagram_size);
-  if (executor_.take_reported_move()) {
-    report_port_ = index;
-    report_is_due_ = true;
-  }
 }
 
 Module::Recipient Module::recipient_of(std::uint8_t address, hal::PortKind kind) const {
@@ -114,16 +93,15 @@ Module::Recipient Module::recipient_of(std::uint8_t address, hal::PortKind kind)
   return group != 0 && address == group ? Recipient::group : Recipient::other;
 }
 
-Datagram Module::reply_to(const Command& command, const Outcome& outcome) const {
+inline void Module::write_reply(const Command& command, const Outcome& outcome, Datagram& reply) const {
   const std::uint8_t host = address_setting(GlobalParameter::serial_host_address);
   if (outcome.form == Outcome::Form::special) {
-    Datagram datagram;
-    datagram.bytes[0] = host;
-    for (std::size_t i = 0; i + 1 < datagram_size; ++i) datagram.bytes[i + 1] = executor_.special_reply()[i];
-    return datagram;
+    reply.bytes[0] = host;
+    for (std::size_t i = 0; i + 1 < datagram_size; ++i) reply.bytes[i + 1] = executor_.special_reply()[i];
+    return;
   }
-  return encode(
-      Reply{host, address_setting(GlobalParameter::serial_address), outcome.status, command.opcode, outcome.value});
+  encode(Reply{host, address_setting(GlobalParameter::serial_address), outcome.status, command.opcode, outcome.value},
+         reply);
 }
 
 Module::Handling Module::handle(const Datagram& request, hal::PortKind kind, Microseconds now, Datagram& reply) {
@@ -131,11 +109,13 @@ Module::Handling Module::handle(const Datagram& request, hal::PortKind kind, Mic
   if (recipient == Recipient::other) return Handling::silent;
   if (!request.checksum_is_right()) {
     if (recipient == Recipient::group) return Handling::silent;
-    reply = reply_to(Command{}, {Status::wrong_checksum, 0, Outcome::Form::normal});
+    write_reply(Command{}, {Status::wrong_checksum, 0, Outcome::Form::normal}, reply);
     return Handling::answered;
   }
   const Command command = decode_request(request).command;
   const Outcome outcome = executor_.execute_direct(command, now);
+  // All commands but those that read may have given the parts something to do.
+  if (outcome.form != Outcome::Form::result) parts_due_ = now;
   if (outcome.form == Outcome::Form::busy) return Handling::busy;
   if (outcome.form == Outcome::Form::silent && outcome.status == Status::ok) return Handling::silent;
   if (recipient == Recipient::group) return Handling::silent;
@@ -143,7 +123,7 @@ Module::Handling Module::handle(const Datagram& request, hal::PortKind kind, Mic
     const auto opcode = static_cast<Opcode>(command.opcode);
     if (opcode != Opcode::gap && opcode != Opcode::ggp && opcode != Opcode::gio) return Handling::silent;
   }
-  reply = reply_to(command, outcome);
+  write_reply(command, outcome, reply);
   return Handling::answered;
 }
 
@@ -151,10 +131,11 @@ Module::Handling Module::handle(const Datagram& request, hal::PortKind kind, Mic
 void Module::report_position() {
   constexpr std::int32_t first_motor = 1;
   if (!axis_.position_reached()) return;
-  report_is_due_ = false;
   const Command command{static_cast<std::uint8_t>(Opcode::request_position_reached), 0, 0, 0};
-  const Datagram report = reply_to(command, {Status::position_reached, first_motor, Outcome::Form::normal});
-  hal_.ports[report_port_].bytes->write(report.bytes, datagram_size);
+  Datagram report;
+  write_reply(command, {Status::position_reached, first_motor, Outcome::Form::normal}, report);
+  report_line_->bytes->write(report.bytes, datagram_size);
+  report_line_ = nullptr;
 }
 
 }  // namespace opentmcl

@@ -31,7 +31,17 @@ class Module {
   /// @param now never runs backwards
   /// @return when the next turn is needed if nothing happens outside (`now` or earlier: at once; `never`: only then).
   ///         Bytes on a port and changes of inputs need a turn too.
-  Microseconds poll(Microseconds now);
+  Microseconds poll(Microseconds now) {
+    // Most turns bring one byte or none: they end here.
+    Microseconds lines_due = never;
+    for (Line* line = lines_; line != lines_end_; ++line) {
+      if (!receive(*line, now)) continue;
+      const Microseconds line_due = serve(*line, now);
+      if (line_due < lines_due) lines_due = line_due;
+    }
+    const Microseconds parts_due = now < parts_due_ ? parts_due_ : poll_parts(now);
+    return parts_due < lines_due ? parts_due : lines_due;
+  }
 
   /// What a datagram came to.
   enum class Handling : std::uint8_t {
@@ -49,26 +59,29 @@ class Module {
   const ModuleDescription& description() const { return description_; }
 
  private:
-  /// Bytes that were read from a port and not looked at yet wait here, behind at most one datagram.
-  struct PortState {
+  /// A port and what has come from it: less than a datagram, or one that is to be executed.
+  struct Line {
+    hal::BytePort* bytes = nullptr;
+    hal::PortKind kind = hal::PortKind::usb;
     Framer framer;
-    bool is_waiting = false;  ///< framer.datagram() is complete and was answered "busy" so far
-    std::uint8_t received[2 * datagram_size] = {};
-    std::uint8_t received_count = 0;
-    std::uint8_t received_next = 0;
   };
-  static constexpr std::uint8_t maximum_ports = 4;
+  static constexpr std::size_t maximum_lines = 4;
 
   /// To whom a datagram is addressed.
   enum class Recipient : std::uint8_t { other, this_module, group };
 
   bool start(Microseconds now);
-  Microseconds poll_port(std::uint8_t index, Microseconds now);
-  bool receive(std::uint8_t index, Microseconds now);
-  void serve(std::uint8_t index, Microseconds now);
+  /// Takes what is missing of a datagram from a line, so at most one datagram. @return whether it is complete
+  static bool receive(Line& line, Microseconds now) {
+    // A datagram that waits for the EEPROM has no room left, so nothing is read behind it.
+    std::uint8_t* const room = line.framer.room(now);
+    return line.framer.filled(line.bytes->read(room, line.framer.missing()), now);
+  }
+  Microseconds poll_parts(Microseconds now);
+  Microseconds serve(Line& line, Microseconds now);
   void report_position();
   Recipient recipient_of(std::uint8_t address, hal::PortKind kind) const;
-  Datagram reply_to(const Command& command, const Outcome& outcome) const;
+  void write_reply(const Command& command, const Outcome& outcome, Datagram& reply) const;
   std::uint8_t address_setting(GlobalParameter parameter) const {
     return static_cast<std::uint8_t>(global_parameters_[parameter]);
   }
@@ -83,11 +96,12 @@ class Module {
   ProgramMemory program_memory_;
   ProgramMachine program_machine_;
   Executor executor_;
-  PortState ports_[maximum_ports];
+  Line lines_[maximum_lines];
+  Line* lines_end_ = lines_;  ///< no port is read before the start
   bool started_ = false;
+  Microseconds parts_due_ = 0;  ///< when poll_parts() is needed unless a command comes before
   bool restart_requested_ = false;
-  std::uint8_t report_port_ = 0;  ///< the port command 138 came from
-  bool report_is_due_ = false;    ///< a move is under way whose end is to be reported
+  Line* report_line_ = nullptr;  ///< where command 138 came from, while a move is under way whose end is to be reported
 };
 
 }  // namespace opentmcl

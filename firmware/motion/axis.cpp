@@ -239,8 +239,7 @@ void Axis::wake() {
   awake_ = true;
 }
 
-Microseconds Axis::poll(Microseconds now) {
-  if (!awake_ && now < next_check_) return next_check_;
+Microseconds Axis::follow_motion(Microseconds now) {
   if (awake_) {
     awake_ = false;
     if (power_ == Power::standby) set_current(settings_[AxisParameter::maximum_current]);

@@ -72,7 +72,7 @@ class Axis {
 
   /// Follows the position counter, keeps the chip's target ahead on moves longer than its reach, and switches between
   /// run and standby current. @return when it must be called again
-  Microseconds poll(Microseconds now);
+  Microseconds poll(Microseconds now) { return awake_ || now >= next_check_ ? follow_motion(now) : next_check_; }
 
   /// A motion command was carried out: poll() has work to do at once.
   bool is_awake() const { return awake_; }
@@ -86,6 +86,7 @@ class Axis {
   void apply_driver();
   bool is_positioning() const;
   void wake();
+  Microseconds follow_motion(Microseconds now);
   Microseconds follow_position(Microseconds now);
   Microseconds follow_current(Microseconds now);
 

@@ -77,8 +77,7 @@ bool ReferenceSearch::is_on_switch() {
   return level != inverts_home_;
 }
 
-Microseconds ReferenceSearch::poll(Microseconds now) {
-  if (!is_active()) return never;
+Microseconds ReferenceSearch::advance(Microseconds now) {
   step();
   return is_active() ? now + poll_period : never;
 }

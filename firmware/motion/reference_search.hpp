@@ -41,12 +41,13 @@ class ReferenceSearch {
   bool is_active() const { return state_ != State::idle && state_ != State::aborted; }
 
   /// @return when to call again, or never
-  Microseconds poll(Microseconds now);
+  Microseconds poll(Microseconds now) { return is_active() ? advance(now) : never; }
 
   /// How often the switches are looked at. It bounds the error of a switching point: 1 ms of the switch speed.
   static constexpr Microseconds poll_period = one_millisecond;
 
  private:
+  Microseconds advance(Microseconds now);
   void drive(int direction, AxisParameter speed);
   void begin_seek();
   void note_edge();

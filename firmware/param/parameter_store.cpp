@@ -154,8 +154,7 @@ void ParameterStore::write_record(std::uint8_t slot) {
   eeprom_.write_page(layout::record_address(slot, 1 - newest), record, sizeof record);
 }
 
-Microseconds ParameterStore::poll(Microseconds now) {
-  if (is_written()) return never;
+Microseconds ParameterStore::write_next(Microseconds now) {
   if (eeprom_.busy()) return now + poll_period;
   if (header_dirty_) {
     header_dirty_ = false;

@@ -35,7 +35,7 @@ class ParameterStore {
   bool is_written() const { return dirty_count_ == 0 && !header_dirty_; }
 
   /// Starts the next page write when the EEPROM is free. @return when to call again, or never
-  Microseconds poll(Microseconds now);
+  Microseconds poll(Microseconds now) { return is_written() ? never : write_next(now); }
 
   /// How often poll() looks whether a page write is over.
   static constexpr Microseconds poll_period = 500;
@@ -45,6 +45,7 @@ class ParameterStore {
   static bool bit(const Bits& bits, std::uint8_t slot) { return (bits[slot / 8] >> slot % 8 & 1) != 0; }
   static void set_bit(Bits& bits, std::uint8_t slot, bool value);
 
+  Microseconds write_next(Microseconds now);
   bool load_header();
   void load_record(std::uint8_t slot);
   bool read_record(std::uint8_t slot, unsigned copy, std::uint8_t& sequence, std::int32_t& value);

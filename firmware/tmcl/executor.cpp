@@ -11,31 +11,30 @@ constexpr Microseconds wait_poll_period = one_millisecond;
 
 }  // namespace
 
-Outcome Executor::execute(const Command& command, Source source, Microseconds now) {
-  const std::uint8_t row = instruction_rows[command.opcode];
-  if (row == no_row) return {Status::invalid_command, command.value, Outcome::Form::normal};
-  const InstructionCheck& check = instruction_checks.rows[row];
-  if (!contains(check.modules, parts_.description.id)) {
-    return {Status::invalid_command, command.value, Outcome::Form::normal};
-  }
-  const Where wrong_place = source == Source::direct ? Where::program_only : Where::direct_only;
-  if (check.where == wrong_place) return {Status::command_not_available, command.value, Outcome::Form::normal};
-  const Status status = check_fields(check, command, parts_.description.axis_count);
-  if (status != Status::ok) return {status, command.value, Outcome::Form::normal};
+namespace {
 
+/// Out of line, so that the way to the handler stays a chain of jumps.
+[[gnu::noinline]] Outcome refused(Status status, const Command& command) {
+  return {status, command.value, Outcome::Form::normal};
+}
+
+}  // namespace
+
+/// What both ways of execution share; `permission` is ok or why the instruction may not be used on this one.
+inline Outcome Executor::execute(const Command& command, const DispatchEntry& entry, Status permission, Source source,
+                                 Microseconds now) {
+  if (permission != Status::ok) return refused(permission, command);
+  const Status status = entry.check_fields(command);
+  if (status != Status::ok) return refused(status, command);
   source_ = source;
   now_ = now;
-  const Outcome outcome = Handlers::of_row(row)(*this, command);
-  if (source == Source::program && outcome.form == Outcome::Form::result && outcome.status == Status::ok) {
-    parts_.machine.registers.accumulator = outcome.value;
-    parts_.machine.registers.set_comparison(outcome.value, 0);
-  }
-  return outcome;
+  return entry.handler(*this, command);
 }
 
 Outcome Executor::execute_direct(const Command& command, Microseconds now) {
   if (download_mode_ && !is_control_command(command.opcode)) return store_in_program(command);
-  return execute(command, Source::direct, now);
+  const DispatchEntry& entry = dispatch_[command.opcode];
+  return execute(command, entry, entry.in_direct_mode, Source::direct, now);
 }
 
 Outcome Executor::store_in_program(const Command& command) {
@@ -49,8 +48,7 @@ Outcome Executor::store_in_program(const Command& command) {
   return {Status::command_loaded, command.value, Outcome::Form::normal};
 }
 
-bool Executor::take_reported_move() {
-  if (!reported_move_) return false;
+bool Executor::is_report_wanted() {
   reported_move_ = false;
   if (position_report_ == PositionReport::none) return false;
   if (position_report_ == PositionReport::next_move) position_report_ = PositionReport::none;
@@ -79,9 +77,8 @@ InterruptController::Lines Executor::interrupt_lines() {
   return lines;
 }
 
-Microseconds Executor::poll(Microseconds now) {
+Microseconds Executor::run_program(Microseconds now) {
   ProgramMachine& machine = parts_.machine;
-  if (!machine.is_running()) return never;
 
   if (machine.interrupts.is_active()) {
     machine.interrupts.observe(now, interrupt_lines(), parts_.global_parameters);
@@ -98,8 +95,13 @@ Microseconds Executor::poll(Microseconds now) {
     return now + ParameterStore::poll_period;
   }
   machine.begin_instruction();
-  const Outcome outcome = execute(instruction, Source::program, now);
+  const DispatchEntry& entry = dispatch_[instruction.opcode];
+  const Outcome outcome = execute(instruction, entry, entry.in_program, Source::program, now);
   if (outcome.form == Outcome::Form::busy) return now + ParameterStore::poll_period;
+  if (outcome.form == Outcome::Form::result && outcome.status == Status::ok) {
+    machine.registers.accumulator = outcome.value;
+    machine.registers.set_comparison(outcome.value, 0);
+  }
   // The end marker of a download, erased memory and control commands: the program ends here. Any other error, such as a
   // value out of range, does not keep the program from going on (docs/decisions/0012-errors-in-programs.md).
   if (outcome.status == Status::invalid_command || outcome.status == Status::command_not_available) {

@@ -7,6 +7,7 @@
 #include "firmware/param/axis_parameter_access.hpp"
 #include "firmware/param/global_parameter_access.hpp"
 #include "firmware/spec/instructions.hpp"
+#include "firmware/tmcl/dispatch.hpp"
 #include "firmware/tmcl/program_machine.hpp"
 #include "firmware/tmcl/program_memory.hpp"
 
@@ -22,9 +23,13 @@ struct Outcome {
     busy,     ///< nothing was done yet: try again on the next turn
   };
 
-  Status status = Status::ok;
-  std::int32_t value = 0;
-  Form form = Form::normal;
+  constexpr Outcome(Status the_status, std::int32_t the_value, Form the_form)
+      : value(the_value), status(the_status), form(the_form) {}
+
+  // The largest first: eight bytes together, which handlers return in registers.
+  std::int32_t value;
+  Status status;
+  Form form;
 };
 
 /// Executes instructions, those of the host and those of the program by the same handlers. Only the context differs:
@@ -45,13 +50,14 @@ class Executor {
     hal::Analog& analog;
   };
 
-  explicit Executor(const Parts& parts) : parts_(parts) {}
+  explicit Executor(const Parts& parts)
+      : parts_(parts), dispatch_(dispatch_tables[static_cast<std::size_t>(parts.description.id)]) {}
 
   /// One command of a host. In download mode it is stored instead, control commands excepted.
   Outcome execute_direct(const Command& command, Microseconds now);
 
   /// One turn of the program: at most one instruction. @return when the next turn is needed
-  Microseconds poll(Microseconds now);
+  Microseconds poll(Microseconds now) { return parts_.machine.is_running() ? run_program(now) : never; }
 
   /// The eight bytes behind the host address after an outcome with Form::special.
   const std::uint8_t* special_reply() const { return special_reply_; }
@@ -65,7 +71,7 @@ class Executor {
   enum class PositionReport : std::uint8_t { none, next_move, every_move };
   PositionReport position_report() const { return position_report_; }
   /// An MVP of a host was carried out since the last call; consumes a next_move request.
-  bool take_reported_move();
+  bool take_reported_move() { return reported_move_ && is_report_wanted(); }
 
   void set_outputs(std::uint32_t levels);
 
@@ -77,12 +83,16 @@ class Executor {
 
   enum class Source : std::uint8_t { direct, program };
 
-  Outcome execute(const Command& command, Source source, Microseconds now);
-  Outcome store_in_program(const Command& command);
+  Outcome execute(const Command& command, const DispatchEntry& entry, Status permission, Source source,
+                  Microseconds now);
+  Microseconds run_program(Microseconds now);
+  bool is_report_wanted();
+  [[gnu::noinline]] Outcome store_in_program(const Command& command);
   InterruptController::Lines interrupt_lines();
   Microseconds next_turn(Microseconds now) const;
 
   Parts parts_;
+  const DispatchTable& dispatch_;
   Source source_ = Source::direct;
   Microseconds now_ = 0;
   std::uint32_t outputs_ = 0;

@@ -1,17 +1,15 @@
 #pragma once
 
 #include "firmware/tmcl/arithmetic.hpp"
+#include "firmware/tmcl/dispatch.hpp"
 #include "firmware/tmcl/executor.hpp"
-#include "firmware/tmcl/instruction_checks.hpp"
 
 namespace opentmcl {
 
 /// One handler for each instruction, for hosts and programs alike. When a handler runs, the fields of the command have
-/// passed check_fields(); `value` of the outcome starts as the value of the command, which is what a reply carries when
-/// the instruction returns nothing of its own.
+/// passed DispatchEntry::check_fields(); `value` of the outcome starts as the value of the command, which is what a
+/// reply carries when the instruction returns nothing of its own.
 struct Handlers {
-  using Handler = Outcome (*)(Executor&, const Command&);
-
   // Motion: handlers_motion.cpp
   static Outcome rotate_right(Executor& executor, const Command& command);
   static Outcome rotate_left(Executor& executor, const Command& command);
@@ -88,9 +86,6 @@ struct Handlers {
   static Outcome not_available(Executor& executor, const Command& command);
   /// User functions: a board without extensions has none.
   static Outcome no_user_function(Executor& executor, const Command& command);
-
-  /// The handler of a row of the instruction table.
-  static Handler of_row(std::size_t row);
 
  private:
   // What several handlers share. Private members of the executor are reachable here and nowhere else.

@@ -54,8 +54,7 @@ void ProgramMemory::erase() {
   erase_page_ = layout::program_address;
 }
 
-Microseconds ProgramMemory::poll(Microseconds now) {
-  if (!is_erasing()) return never;
+Microseconds ProgramMemory::erase_next(Microseconds now) {
   if (store_.is_written() && !eeprom_.busy()) {
     for (std::uint8_t& byte : buffer_) byte = 0;
     eeprom_.write_page(erase_page_, buffer_, hal::Eeprom::page_size);

@@ -42,7 +42,7 @@ class ProgramMemory {
   bool is_erasing() const { return erase_page_ != 0; }
 
   /// Moves erase() on. @return when to call again, or never
-  Microseconds poll(Microseconds now);
+  Microseconds poll(Microseconds now) { return is_erasing() ? erase_next(now) : never; }
 
   /// @param address less than capacity()
   Access read(std::uint16_t address, Command& instruction);
@@ -50,6 +50,7 @@ class ProgramMemory {
  private:
   enum State : std::int32_t { incomplete = 0, complete = 1 };
 
+  Microseconds erase_next(Microseconds now);
   bool flush_page();
 
   hal::Eeprom& eeprom_;

@@ -39,9 +39,9 @@ struct Reply {
 
 /// Low byte of the sum of the first eight bytes.
 constexpr std::uint8_t checksum_of(const std::uint8_t* bytes) {
-  unsigned sum = 0;
-  for (std::size_t i = 0; i + 1 < datagram_size; ++i) sum += bytes[i];
-  return static_cast<std::uint8_t>(sum);
+  std::uint8_t sum = 0;
+  for (std::size_t i = 0; i + 1 < datagram_size; ++i) sum = static_cast<std::uint8_t>(sum + bytes[i]);
+  return sum;
 }
 
 constexpr void put_int32(std::uint8_t* bytes, std::int32_t value) {
@@ -79,14 +79,18 @@ constexpr Datagram encode(const Request& request) {
   return datagram;
 }
 
-constexpr Datagram encode(const Reply& reply) {
-  Datagram datagram;
+constexpr void encode(const Reply& reply, Datagram& datagram) {
   datagram.bytes[0] = reply.host_address;
   datagram.bytes[1] = reply.module_address;
   datagram.bytes[2] = static_cast<std::uint8_t>(reply.status);
   datagram.bytes[3] = reply.opcode;
   put_int32(datagram.bytes + 4, reply.value);
   datagram.seal();
+}
+
+constexpr Datagram encode(const Reply& reply) {
+  Datagram datagram;
+  encode(reply, datagram);
   return datagram;
 }
 

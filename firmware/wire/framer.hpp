@@ -17,27 +17,41 @@ class Framer {
 
   /// Takes one byte that arrived at `now`; true when it completed a datagram.
   bool push(std::uint8_t byte, Microseconds now) {
-    if (now - last_byte_ > gap) count_ = 0;
-    last_byte_ = now;
-    datagram_.bytes[count_++] = byte;
-    if (count_ < datagram_size) return false;
-    count_ = 0;
-    return true;
+    if (is_complete()) reset();
+    *room(now) = byte;
+    return filled(1, now);
   }
 
-  /// The datagram push() completed; valid until the next push().
+  /// Where bytes that arrive at `now` belong: up to missing() of them. What came is told to filled().
+  std::uint8_t* room(Microseconds now) {
+    if (now > expires_) count_ = 0;
+    return datagram_.bytes + count_;
+  }
+
+  /// Bytes that the datagram needs to be complete; ask after room().
+  std::size_t missing() const { return datagram_size - count_; }
+
+  /// `count` bytes that arrived at `now` were put into room(now); true when the datagram is complete.
+  bool filled(std::size_t count, Microseconds now) {
+    if (count != 0) {
+      count_ += count;
+      // Complete, it may wait as long as it takes.
+      expires_ = is_complete() ? never : now + gap;
+    }
+    return is_complete();
+  }
+
+  /// A complete datagram stays until the next push() or reset().
+  bool is_complete() const { return count_ == datagram_size; }
   const Datagram& datagram() const { return datagram_; }
 
-  /// True between datagrams.
-  bool is_aligned(Microseconds now) const { return count_ == 0 || now - last_byte_ > gap; }
-
-  /// Forgets the bytes of an unfinished datagram.
+  /// Forgets the datagram, complete or not.
   void reset() { count_ = 0; }
 
  private:
   Datagram datagram_;
   std::size_t count_ = 0;
-  Microseconds last_byte_ = 0;
+  Microseconds expires_ = never;  ///< later than this the bytes of an unfinished datagram are dropped
 };
 
 }  // namespace opentmcl

@@ -1,5 +1,7 @@
 // Which handler executes which instruction. The order here does not matter; that every row of the instruction table
 // has exactly one is checked when this is compiled.
+#include "firmware/tmcl/dispatch.hpp"
+
 #include "firmware/tmcl/handlers.hpp"
 
 namespace opentmcl {
@@ -8,7 +10,7 @@ namespace {
 
 struct Binding {
   Opcode opcode;
-  Handlers::Handler handler;
+  DispatchEntry::Handler handler;
 };
 
 constexpr Binding bindings[] = {
@@ -88,21 +90,62 @@ constexpr Binding bindings[] = {
 
 static_assert(sizeof bindings / sizeof bindings[0] == instruction_count);
 
-struct HandlerTable {
-  Handlers::Handler rows[instruction_count];
-};
+constexpr std::uint8_t any = 255;
 
-consteval HandlerTable make_handler_table() {
-  HandlerTable table{};
-  for (const Binding& binding : bindings) table.rows[row_of(binding.opcode)] = binding.handler;
+consteval DispatchEntry refusing_entry() {
+  return {nullptr, 0, 0, Status::invalid_command, Status::invalid_command, any, false, any, -1};
+}
+
+consteval DispatchEntry entry_of(const InstructionSpec& spec, const ModuleDescription& module,
+                                 DispatchEntry::Handler handler) {
+  DispatchEntry entry{handler, int32_minimum, ~std::uint32_t{0}, Status::ok, Status::ok, any, false, any, -1};
+  if (spec.where == Where::program_only) entry.in_direct_mode = Status::command_not_available;
+  if (spec.where == Where::direct_only) entry.in_program = Status::command_not_available;
+  for (const OperandSpec& operand : spec.operands) {
+    switch (operand.field) {
+      case Field::type:
+        entry.maximum_type = static_cast<std::uint8_t>(operand.maximum);
+        entry.excluded_type = static_cast<std::int16_t>(keywords_of(operand.kind).excluded);
+        break;
+      case Field::motor:
+        if (operand.kind == OperandKind::motor || operand.kind == OperandKind::motor_or_all) {
+          entry.maximum_motor = static_cast<std::uint8_t>(module.axis_count - 1);
+          entry.takes_all_motors = operand.kind == OperandKind::motor_or_all;
+        }
+        break;
+      case Field::value:
+        entry.minimum_value = operand.minimum;
+        entry.value_range = static_cast<std::uint32_t>(operand.maximum) - static_cast<std::uint32_t>(operand.minimum);
+        break;
+      case Field::none:
+        break;
+    }
+  }
+  return entry;
+}
+
+consteval DispatchTable make_dispatch_table(const ModuleDescription& module) {
+  DispatchTable table{};
+  table.entries[instruction_count] = refusing_entry();
+  for (std::uint8_t& row : table.by_opcode) row = instruction_count;
+  for (const Binding& binding : bindings) {
+    const std::size_t row = row_of(binding.opcode);
+    if (!contains(instructions[row].modules, module.id)) {
+      table.entries[row] = refusing_entry();
+      continue;
+    }
+    table.entries[row] = entry_of(instructions[row], module, binding.handler);
+    table.by_opcode[static_cast<std::uint8_t>(binding.opcode)] = static_cast<std::uint8_t>(row);
+  }
   return table;
 }
 
-constexpr HandlerTable handler_table = make_handler_table();
-
+/// Each row of the instruction table was bound: the count is right, and none was bound twice.
 consteval bool every_row_has_a_handler() {
-  for (const Handlers::Handler handler : handler_table.rows) {
-    if (handler == nullptr) return false;
+  bool bound[instruction_count] = {};
+  for (const Binding& binding : bindings) bound[row_of(binding.opcode)] = true;
+  for (const bool row : bound) {
+    if (!row) return false;
   }
   return true;
 }
@@ -110,8 +153,6 @@ static_assert(every_row_has_a_handler());
 
 }  // namespace
 
-Handlers::Handler Handlers::of_row(std::size_t row) {
-  return handler_table.rows[row];
-}
+constexpr DispatchTable dispatch_tables[module_count] = {make_dispatch_table(tmcm1110), make_dispatch_table(pd1161)};
 
 }  // namespace opentmcl
