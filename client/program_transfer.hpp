@@ -1,0 +1,28 @@
+// Programs into a module and out of it. Source: PD-1161 manual 3.7.53, commands 132 to 134.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "client/client.hpp"
+
+namespace opentmcl::client {
+
+/// Told how many of how many instructions have been transferred; false ends the transfer (error: interrupted).
+using Progress = std::function<bool(std::size_t done, std::size_t total)>;
+
+/// Stops the running program and writes `program` from `address` on. However it ends, the module is out of download
+/// mode again when it can still be reached.
+Result<void> download(Client& client, const std::vector<Command>& program, std::uint16_t address,
+                      const Progress& progress);
+
+/// Reads one instruction.
+Result<Command> read_instruction(Client& client, std::uint16_t address);
+
+/// Reads the program back and compares. Error: protocol, naming the first difference.
+Result<void> verify(Client& client, const std::vector<Command>& program, std::uint16_t address,
+                    const Progress& progress);
+
+}  // namespace opentmcl::client
