@@ -1,0 +1,36 @@
+#include "server/pace.hpp"
+
+#include <cmath>
+
+namespace opentmcl::server {
+
+namespace {
+
+using WallMicroseconds = std::chrono::duration<double, std::micro>;
+
+/// Farther away than anybody waits, and still a valid time point.
+constexpr double longest_wait = 1e15;
+
+}  // namespace
+
+void Pace::anchor(WallTime wall, Microseconds simulated) {
+  wall_ = wall;
+  simulated_ = simulated;
+}
+
+Microseconds Pace::simulated_at(WallTime wall) const {
+  if (is_maximum()) return never;
+  const double passed = WallMicroseconds(wall - wall_).count() * speed_;
+  return simulated_ + static_cast<Microseconds>(passed);
+}
+
+WallTime Pace::wall_at(Microseconds simulated) const {
+  if (simulated == never) return WallTime::max();
+  if (is_maximum() || simulated <= simulated_) return wall_;
+  // Rounded up: at that wall time simulated_at() is really there.
+  const double wait = std::ceil(static_cast<double>(simulated - simulated_) / speed_ * 1000) / 1000 + 0.001;
+  if (wait > longest_wait) return WallTime::max();
+  return wall_ + std::chrono::duration_cast<WallTime::duration>(WallMicroseconds(wait));
+}
+
+}  // namespace opentmcl::server

@@ -1,0 +1,88 @@
+#include "server/request_port.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace opentmcl::server {
+namespace {
+
+struct Sender final : ReplySink {
+  void reply(std::span<const std::uint8_t> bytes) override {
+    received.insert(received.end(), bytes.begin(), bytes.end());
+  }
+  std::vector<std::uint8_t> received;
+};
+
+Datagram request(std::uint8_t opcode) {
+  return encode(Request{1, {opcode, 0, 0, 0}});
+}
+
+struct RequestPortTest : testing::Test {
+  std::uint8_t read_opcode() {
+    std::uint8_t buffer[16] = {};
+    EXPECT_EQ(datagram_size, port.read(buffer, sizeof buffer));
+    return buffer[1];
+  }
+  void answer(std::uint8_t byte) { port.write(&byte, 1); }
+
+  RequestPort port;
+  Sender first;
+  Sender second;
+};
+
+TEST_F(RequestPortTest, GivesOneRequestAtATimeInTheOrderOfArrival) {
+  port.push(request(1), first);
+  port.push(request(2), second);
+  EXPECT_EQ(1, read_opcode());
+  EXPECT_EQ(2, read_opcode());
+  std::uint8_t buffer[16];
+  EXPECT_EQ(0u, port.read(buffer, sizeof buffer));
+}
+
+TEST_F(RequestPortTest, SendsEachReplyToTheOneWhoAsked) {
+  port.push(request(1), first);
+  port.push(request(2), second);
+  read_opcode();
+  answer(11);
+  read_opcode();
+  answer(22);
+  EXPECT_EQ(std::vector<std::uint8_t>{11}, first.received);
+  EXPECT_EQ(std::vector<std::uint8_t>{22}, second.received);
+}
+
+TEST_F(RequestPortTest, SendsALateReplyToTheOneWhoAskedThoughAnotherRequestWaits) {
+  port.push(request(1), first);
+  read_opcode();
+  port.push(request(2), second);
+  std::uint8_t buffer[1];
+  EXPECT_EQ(0u, port.read(buffer, 0));
+  answer(11);
+  EXPECT_EQ(std::vector<std::uint8_t>{11}, first.received);
+  EXPECT_TRUE(second.received.empty());
+}
+
+TEST_F(RequestPortTest, DropsRequestsAndRepliesOfASenderThatIsGone) {
+  port.push(request(1), first);
+  port.push(request(2), first);
+  port.push(request(3), second);
+  EXPECT_EQ(1, read_opcode());
+  port.forget(first);
+  answer(11);
+  EXPECT_TRUE(first.received.empty());
+  EXPECT_EQ(3, read_opcode());
+}
+
+TEST_F(RequestPortTest, FinishesARequestThatWasReadInPart) {
+  port.push(request(1), first);
+  std::uint8_t buffer[16];
+  ASSERT_EQ(4u, port.read(buffer, 4));
+  port.forget(first);
+  ASSERT_EQ(5u, port.read(buffer, sizeof buffer));
+  EXPECT_EQ(0u, port.size());
+  answer(11);
+  EXPECT_TRUE(first.received.empty());
+}
+
+}  // namespace
+}  // namespace opentmcl::server
