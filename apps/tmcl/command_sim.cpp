@@ -1,0 +1,235 @@
+// tmcl sim: a virtual module for other programs to talk to.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/signal_set.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "apps/tmcl/commands.hpp"
+#include "apps/tmcl/context.hpp"
+#include "apps/tmcl/live_line.hpp"
+#include "apps/tmcl/quantity.hpp"
+#include "apps/tmcl/sim_endpoints.hpp"
+#include "apps/tmcl/source_program.hpp"
+#include "apps/tmcl/status_line.hpp"
+#include "boards/twin/eeprom_file.hpp"
+#include "client/program_transfer.hpp"
+#include "server/file_lock.hpp"
+#include "server/live_simulation.hpp"
+#include "server/simulated_transport.hpp"
+
+namespace opentmcl::app {
+
+namespace asio = boost::asio;
+using client::Error;
+using client::ErrorKind;
+using client::Result;
+
+namespace {
+
+struct SimOptions {
+  std::string module = pd1161.argument;
+  SimEndpoints::Options endpoints;
+  std::string speed = "1";
+  std::string duration;
+  std::string eeprom;
+  std::string program;
+  bool no_start = false;
+  bool quiet = false;
+};
+
+Error as_error(const EepromFileError& error) {
+  const bool is_bad = error.kind == EepromFileError::Kind::bad_content;
+  return {is_bad ? ErrorKind::bad_file : ErrorKind::input_output, error.message, {}};
+}
+
+/// The file behind a module's EEPROM, and the lock that keeps a second module out of it.
+class KeptEeprom {
+ public:
+  static Result<std::unique_ptr<KeptEeprom>> open(const std::string& path, const ModuleDescription& description) {
+    Result<server::FileLock> lock = server::FileLock::acquire(path);
+    if (!lock) return lock.error();
+    return std::make_unique<KeptEeprom>(std::move(*lock), EepromFile(path, description));
+  }
+  KeptEeprom(server::FileLock lock, EepromFile file) : lock_(std::move(lock)), file_(std::move(file)) {}
+
+  Result<void> load(VirtualModule& module) {
+    if (const auto error = file_.load(module.world().eeprom())) return as_error(*error);
+    return {};
+  }
+  Result<void> save(VirtualModule& module) {
+    if (const auto error = file_.save(module.world().eeprom())) return as_error(*error);
+    return {};
+  }
+  /// Lets the module finish what it has been told to store, as a supply that fades slowly does, and saves it.
+  Result<void> finish(VirtualModule& module) {
+    const Microseconds give_up = module.now() + longest_fade;
+    std::uint64_t written = 0;
+    do {
+      written = module.world().eeprom().bytes_written();
+      module.advance_to(module.now() + quiet_time);
+    } while (module.world().eeprom().bytes_written() != written && module.now() < give_up);
+    return save(module);
+  }
+
+ private:
+  /// Longer than the firmware ever waits between two page writes.
+  static constexpr Microseconds quiet_time = 50 * one_millisecond;
+  /// A program that stores something again and again would never be finished.
+  static constexpr Microseconds longest_fade = 5000 * one_millisecond;
+
+  server::FileLock lock_;
+  EepromFile file_;
+};
+
+/// Loads a program through the module's own commands, in the module's own time, and starts it.
+Result<void> load_program(VirtualModule& module, server::MemoryLine& line, const std::vector<Command>& commands,
+                          bool start) {
+  server::SimulatedTransport transport(module, line, "the virtual module");
+  client::Client client(transport);
+  const auto keep_going = [](std::size_t, std::size_t) { return true; };
+  if (Result<void> loaded = client::download(client, commands, 0, keep_going); !loaded) return loaded;
+  return start ? client.start_program() : Result<void>();
+}
+
+void introduce(const Context& context, const ModuleDescription& module, const SimEndpoints& endpoints) {
+  if (context.json) {
+    fmt::print("{}\n", nlohmann::ordered_json{{"module", module.name},
+                                              {"pty", endpoints.pty_path()},
+                                              {"link", endpoints.link_path()},
+                                              {"tcp", endpoints.tcp_url()}}
+                           .dump());
+  } else {
+    fmt::print("Virtual {}, firmware V{}.{:02}. Talk to it at\n", module.name, module.firmware_major,
+               module.firmware_minor);
+    fmt::print("  {}  (serial port, a link to {})\n", endpoints.link_path(), endpoints.pty_path());
+    if (!endpoints.tcp_url().empty()) fmt::print("  {}\n", endpoints.tcp_url());
+    fmt::print("Ctrl-C ends it.\n");
+  }
+  std::fflush(stdout);
+}
+
+/// Shows the live line now and from then on.
+class LiveDisplay {
+ public:
+  LiveDisplay(asio::io_context& events, server::LiveSimulation& simulation, server::MemoryLine& line)
+      : timer_(events), simulation_(simulation), live_line_(line) {
+    refresh();
+  }
+
+ private:
+  void refresh() {
+    live_line_.ask();
+    simulation_.serve();
+    if (const std::optional<MotionState> state = live_line_.take_answers()) status_.show(describe(*state));
+    timer_.expires_after(status_.period());
+    timer_.async_wait([this](const boost::system::error_code& error) {
+      if (!error) refresh();
+    });
+  }
+
+  asio::steady_timer timer_;
+  server::LiveSimulation& simulation_;
+  LiveLine live_line_;
+  StatusLine status_;
+};
+
+Result<void> run_sim(const Context& context, const SimOptions& options) {
+  const Result<const ModuleDescription*> found = named_module(options.module);
+  if (!found) return found.error();
+  const ModuleDescription& description = **found;
+  const Result<double> speed = parse_speed(options.speed);
+  if (!speed) return speed.error();
+  server::LiveSimulation::Options pace{*speed, std::nullopt};
+  if (!options.duration.empty()) {
+    const Result<Microseconds> duration = parse_duration(options.duration);
+    if (!duration) return duration.error();
+    pace.duration = *duration;
+  }
+  std::vector<Command> commands;
+  if (!options.program.empty()) {
+    lang::AssemblerOptions assembler;
+    assembler.module = &description;
+    const Result<lang::AssemblyResult> assembled = assemble_file(options.program, assembler);
+    if (!assembled) return assembled.error();
+    commands = assembled->program->commands;
+  }
+  std::unique_ptr<KeptEeprom> eeprom;
+  if (!options.eeprom.empty()) {
+    Result<std::unique_ptr<KeptEeprom>> opened = KeptEeprom::open(options.eeprom, description);
+    if (!opened) return opened.error();
+    eeprom = std::move(*opened);
+  }
+
+  asio::io_context events(1);
+  std::optional<server::LiveSimulation> simulation;
+  Result<SimEndpoints> endpoints =
+      SimEndpoints::open(events, options.endpoints, description, [&simulation] { simulation->serve(); });
+  if (!endpoints) return endpoints.error();
+  server::MemoryLine line;
+  std::vector<server::RequestPort*> request_ports = endpoints->ports();
+  request_ports.push_back(&line.port());
+  std::vector<hal::Port> ports;
+  ports.reserve(request_ports.size());
+  for (server::RequestPort* port : request_ports) ports.push_back({port, hal::PortKind::usb});
+
+  VirtualModule module(description, ports);
+  if (eeprom) {
+    if (Result<void> loaded = eeprom->load(module); !loaded) return loaded;
+  }
+  if (!commands.empty()) {
+    if (Result<void> loaded = load_program(module, line, commands, !options.no_start); !loaded) return loaded;
+  }
+
+  simulation.emplace(events, module, request_ports, pace);
+  Result<void> outcome;
+  if (eeprom) {
+    simulation->after_turn([&] {
+      if (Result<void> saved = eeprom->save(module); !saved) {
+        outcome = saved;
+        simulation->stop();
+      }
+    });
+  }
+  asio::signal_set signals(events, SIGINT, SIGTERM, SIGHUP);
+  signals.async_wait([&simulation](const boost::system::error_code& error, int) {
+    if (!error) simulation->stop();
+  });
+  introduce(context, description, *endpoints);
+  simulation->start();
+  std::optional<LiveDisplay> display;
+  if (!options.quiet) display.emplace(events, *simulation, line);
+  simulation->run();
+  if (!eeprom || !outcome) return outcome;
+  return eeprom->finish(module);
+}
+
+}  // namespace
+
+void add_sim(CLI::App& app, Context& context) {
+  auto options = std::make_shared<SimOptions>();
+  CLI::App* command = app.add_subcommand("sim", "a virtual module on a serial port and a TCP port")->fallthrough();
+  command->footer(
+      "Examples:\n  tmcl sim\n  tmcl sim tmcm1110 --program my.tmc --eeprom my.eeprom\n"
+      "  tmcl sim --speed max --duration 10min --program my.tmc");
+  command->add_option("MODULE", options->module, "pd1161 or tmcm1110")->capture_default_str();
+  command->add_option("--pty-link", options->endpoints.link,
+                      "where to make a link to the serial port; default: tmcl-MODULE in $XDG_RUNTIME_DIR or /tmp");
+  command->add_option(
+      "--tcp", options->endpoints.tcp,
+      fmt::format("PORT, ADDRESS:PORT or none; default: {} on this machine, or a free port if that is taken",
+                  SimEndpoints::default_tcp_port));
+  command->add_option("--speed", options->speed, "times real time, or max")->capture_default_str();
+  command->add_option("--duration", options->duration, "end after this much of the module's time: 5s, 500ms, 2min");
+  command->add_option("--eeprom", options->eeprom, "keep the EEPROM in this file; made if it does not exist");
+  command->add_option("--program", options->program, "load this TMCL program and start it");
+  command->add_flag("--no-start", options->no_start, "do not start the program");
+  command->add_flag("-q,--quiet", options->quiet, "no live line");
+  command->callback([&context, options] { context.finish(run_sim(context, *options)); });
+}
+
+}  // namespace opentmcl::app
