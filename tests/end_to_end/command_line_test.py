@@ -1,0 +1,197 @@
+"""Sub-commands, their output and their exit codes."""
+
+import json
+import os
+import pty
+import signal
+import subprocess
+
+import tmcl_host
+from tmcl_host import ACTUAL_SPEED, TemporaryFolderTest, eventually, tmcl_path
+
+PROGRAM = "MVP ABS, 0, 2000\nWAIT POS, 0, 0\nSTOP\n"
+ENDLESS = "Loop: ROR 0, 300\nJA Loop\n"
+
+
+class CommandLineTest(TemporaryFolderTest):
+    def expect(self, code, *arguments, **options):
+        done = self.tmcl(*arguments, **options)
+        self.assertEqual(code, done.returncode, "%r: %s" % (arguments, done.stderr))
+        return done
+
+    def json(self, *arguments):
+        return json.loads(self.expect(0, "--json", *arguments).stdout)
+
+
+class WithNothingPluggedIn(CommandLineTest):
+    def test_reads_parameters_by_number_symbol_and_name(self):
+        for name in ("140", "APMicrostepResolution", "microstep-resolution", "microstep resolution"):
+            self.assertEqual("8", self.expect(0, "get", name).stdout.split()[0])
+        self.assertEqual("1", self.expect(0, "get", "--global", "0", "serial-address").stdout.split()[0])
+
+    def test_shows_units_and_physical_values(self):
+        data = self.json("get", "maximum-positioning-speed")
+        self.assertEqual((4, 1000, "internal velocity"), (data["number"], data["value"], data["unit"]))
+        self.assertIn("rpm", data["physical"])
+
+    def test_writes_parameters(self):
+        self.expect(0, "set", "maximum-current", "100")
+        self.expect(0, "set", "--global", "2", "7", "--", "-5")
+
+    def test_moves_and_rotates_and_stops(self):
+        self.assertEqual("5000", self.expect(0, "move", "5000", "--wait").stdout.strip())
+        self.assertEqual({"position": -300}, self.json("move", "--wait", "--", "-300"))
+        self.expect(0, "rotate", "500")
+        self.expect(0, "rotate", "--", "-500")
+        self.expect(0, "stop")
+
+    def test_sends_any_instruction(self):
+        done = self.expect(0, "send", "MVP ABS, 0, 1000")
+        self.assertIn("01 04 00 00 00 00 03 E8 F0", done.stdout)
+        self.assertIn("status 100", done.stdout)
+        self.assertEqual(1161 << 16 | 1 << 8 | 47, self.json("send", "136", "1", "0", "0")["value"])
+        self.assertEqual("version 1161V147", self.json("send", "136 0 0 0")["meaning"])
+
+    def test_prints_all_tables(self):
+        spec = self.json("spec")
+        self.assertEqual({"modules", "instructions", "axis_parameters", "global_parameters", "user_variables", "coordinates",
+                          "interrupts", "status_codes", "io_ports"}, set(spec))
+        self.assertIn("MVP", self.expect(0, "spec").stdout)
+
+    def test_tells_versions(self):
+        self.assertRegex(self.expect(0, "version").stdout, r"^tmcl \d+\.\d+\.\d+\n$")
+        self.assertEqual("TMCM-1110", self.json("version", "--port", "sim:tmcm1110")["module"])
+
+    def test_takes_the_port_from_the_environment(self):
+        environment = dict(os.environ, TMCL_PORT="sim:tmcm1110")
+        self.assertIn("1110V108", self.expect(0, "version", env=environment).stdout)
+
+    def test_runs_a_program_to_its_end(self):
+        done = self.expect(0, "run", self.write("p.tmc", PROGRAM))
+        self.assertIn("position 2000", done.stdout)
+        result = self.json("run", "--quiet", self.path("p.tmc"))
+        self.assertEqual(("stopped", 2000), (result["program"], result["position"]))
+
+    def test_ends_a_program_after_a_duration(self):
+        self.expect(0, "run", "--quiet", "--duration", "10s", self.write("p.tmc", ENDLESS))
+
+    def test_has_help_with_examples_for_each_command(self):
+        self.assertIn("Examples:", self.expect(0, "--help").stdout)
+        for command in "sim asm dis run get set rotate move stop send spec version".split():
+            self.assertIn("Example", self.expect(0, command, "--help").stdout, command)
+
+
+class AssemblerCommands(CommandLineTest):
+    def test_assemble_and_disassemble_are_inverse(self):
+        source = self.write("p.tmc", PROGRAM)
+        self.expect(0, "asm", source)
+        binary = self.read("p.bin")
+        self.assertEqual(24, len(binary))
+        self.write("again.tmc", self.expect(0, "dis", self.path("p.bin")).stdout)
+        self.expect(0, "asm", self.path("again.tmc"), "-o", self.path("again.bin"))
+        self.assertEqual(binary, self.read("again.bin"))
+
+    def test_a_stop_is_appended_unless_told_otherwise(self):
+        source = self.write("p.tmc", "ROR 0, 100\n")
+        self.expect(0, "asm", source, "-o", self.path("with.bin"))
+        self.expect(0, "asm", source, "-o", self.path("without.bin"), "--no-append-stop")
+        self.assertEqual((16, 8), (len(self.read("with.bin")), len(self.read("without.bin"))))
+
+    def test_a_listing_shows_the_source(self):
+        listing = self.expect(0, "asm", self.write("p.tmc", PROGRAM), "--listing", "-").stdout
+        self.assertIn("WAIT POS, 0, 0", listing)
+
+    def test_errors_are_shown_with_their_place_and_no_file_is_written(self):
+        done = self.expect(65, "asm", self.write("bad.tmc", "ROR 0, 100\n  NOP\nJA Nowhere\n"))
+        self.assertIn("bad.tmc:2:3: error:", done.stderr)
+        self.assertIn("bad.tmc:3:4: error:", done.stderr)
+        self.assertFalse(os.path.exists(self.path("bad.bin")))
+
+    def test_an_instruction_the_module_lacks_is_an_error(self):
+        source = self.write("p.tmc", "CALCVV ADD, 1, 2\n")
+        self.expect(0, "asm", source)
+        self.assertIn("TMCM-1110", self.expect(65, "asm", source, "--module", "tmcm1110").stderr)
+
+    def test_a_damaged_binary_is_refused(self):
+        self.expect(65, "dis", self.write("p.bin", b"1234567"))
+        self.expect(65, "dis", self.path("missing.bin"))
+
+
+class ExitCodes(CommandLineTest):
+    def test_1_when_the_module_says_no(self):
+        self.assertIn("status 4", self.expect(1, "set", "4", "5000").stderr)
+        self.expect(1, "get", "99")
+        self.expect(1, "send", "200 0 0 0")
+
+    def test_64_for_wrong_usage(self):
+        for arguments in ([], ["dance"], ["get"], ["get", "no such parameter"], ["rotate", "99999"], ["--timeout", "soon", "stop"],
+                          ["--port", "nowhere", "stop"], ["--port", "sim:tmcm9999", "stop"], ["--port", "tcp://x", "stop"],
+                          ["sim", "tmcm9999"], ["sim", "--speed", "fast"], ["sim", "--duration", "5"], ["send", "DANCE 0"],
+                          ["send", "1 2"], ["asm", "--module", "x", "y"]):
+            self.assertNotEqual("", self.expect(64, *arguments).stderr)
+
+    def test_69_when_there_is_no_such_device(self):
+        self.assertIn("/dev/no_such_port", self.expect(69, "--port", "/dev/no_such_port", "stop").stderr)
+        self.expect(69, "--port", "/dev/null", "stop")
+        self.expect(69, "--port", "tcp://127.0.0.1:1", "stop")
+
+    def test_75_when_nobody_answers(self):
+        ours, theirs = pty.openpty()
+        try:
+            path = os.ttyname(theirs)
+            self.assertIn("no answer", self.expect(75, "--port", path, "--timeout", "50ms", "stop").stderr)
+        finally:
+            os.close(ours)
+            os.close(theirs)
+
+
+class OverASerialPort(CommandLineTest):
+    def setUp(self):
+        super().setUp()
+        self.simulation = self.start("pd1161", "--speed", "10")
+
+    def at(self, code, *arguments):
+        return self.expect(code, "--port", self.simulation.link, *arguments)
+
+    def test_commands_act_on_one_and_the_same_module(self):
+        self.at(0, "set", "4", "777")
+        self.assertEqual("777", self.at(0, "get", "4").stdout.split()[0])
+        self.assertEqual("3000", self.at(0, "move", "3000", "--wait").stdout.strip())
+        self.assertIn("1161V147", self.at(0, "version").stdout)
+
+    def test_commands_reach_it_over_tcp_too(self):
+        self.expect(0, "--port", self.simulation.introduction["tcp"], "set", "4", "778")
+        self.assertEqual("778", self.at(0, "get", "4").stdout.split()[0])
+
+    def test_a_program_is_loaded_verified_and_followed(self):
+        done = self.at(0, "run", self.write("p.tmc", PROGRAM))
+        self.assertIn("program stopped", done.stdout)
+        self.assertIn("position 2000", done.stdout)
+
+    def test_control_c_stops_program_and_motor(self):
+        process = subprocess.Popen([tmcl_path(), "--port", self.simulation.introduction["tcp"], "run", "--quiet",
+                                    self.write("p.tmc", ENDLESS)], stderr=subprocess.PIPE, text=True)
+        host = self.simulation.host()
+        self.addCleanup(host.close)
+        eventually(lambda: host.get(ACTUAL_SPEED) == 300, "the program's speed")
+        process.send_signal(signal.SIGINT)
+        errors = process.communicate(timeout=tmcl_host.DEADLINE)[1]
+        self.assertEqual(130, process.returncode, errors)
+        self.assertEqual(0, host.program_state())
+        eventually(lambda: host.get(ACTUAL_SPEED) == 0, "standstill")
+
+    def test_a_port_in_use_by_another_tmcl_is_refused(self):
+        process = subprocess.Popen([tmcl_path(), "--port", self.simulation.link, "run", "--quiet",
+                                    self.write("p.tmc", ENDLESS)], stderr=subprocess.PIPE, text=True)
+        try:
+            tcp = self.simulation.introduction["tcp"]
+            eventually(lambda: self.expect(0, "--port", tcp, "get", "actual-speed").stdout.startswith("300"), "its speed")
+            self.assertIn("in use", self.at(69, "get", "1").stderr)
+        finally:
+            process.send_signal(signal.SIGINT)
+            process.communicate(timeout=tmcl_host.DEADLINE)
+        self.assertEqual(130, process.returncode)
+
+
+if __name__ == "__main__":
+    tmcl_host.main()
