@@ -43,11 +43,13 @@ Result<std::unique_ptr<Transport>> connect_tcp(const std::string& host, unsigned
   const bool is_ipv6 = host.find(':') != std::string::npos;
   const std::string name = "tcp://" + (is_ipv6 ? "[" + host + "]" : host) + ":" + service;
 
+  // "localhost" is this machine (RFC 6761), also where no file or name server says so.
+  const std::string known_host = host == "localhost" ? "127.0.0.1" : host;
   addrinfo wanted{};
   wanted.ai_family = AF_UNSPEC;
   wanted.ai_socktype = SOCK_STREAM;
   AddressList addresses;
-  if (const int error = ::getaddrinfo(host.c_str(), service.c_str(), &wanted, &addresses.first); error != 0) {
+  if (const int error = ::getaddrinfo(known_host.c_str(), service.c_str(), &wanted, &addresses.first); error != 0) {
     return Error{ErrorKind::no_such_device, "unknown host in " + name + ": " + ::gai_strerror(error), {}};
   }
 

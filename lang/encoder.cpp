@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include "firmware/spec/access.hpp"
+#include "firmware/spec/parameter_rows.hpp"
 #include "lang/command_check.hpp"
 #include "lang/instruction_table.hpp"
 #include "lang/suggestion.hpp"

@@ -22,7 +22,8 @@ std::string code_columns(const Program& program, std::size_t address) {
 
 /// As wide as `code_columns`: seven bytes of two digits with blanks between them.
 std::string without_code() {
-  return std::string(address_width + 2 + 7 * 3 - 1, ' ');
+  std::string blanks(address_width + 2 + 7 * 3 - 1, ' ');
+  return blanks;
 }
 
 /// Addresses of the instructions of a file in the order of their places in it; included files lie between them.

@@ -38,6 +38,7 @@ TEST(ProgramFile, RefusesABrokenChecksum) {
 RC_GTEST_PROP(ProgramFile, IsReadAsItWasWritten,
               (const std::vector<std::tuple<std::uint8_t, std::uint8_t, std::uint8_t, std::int32_t>>& rows)) {
   std::vector<Command> commands;
+  commands.reserve(rows.size());
   for (const auto& [opcode, type, motor, value] : rows) commands.push_back({opcode, type, motor, value});
   const ProgramFileResult result = from_program_file(to_program_file(commands));
   RC_ASSERT(result.commands.has_value());

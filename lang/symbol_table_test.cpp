@@ -52,6 +52,7 @@ RC_GTEST_PROP(SymbolTable, HoldsWhatAMapHolds, ()) {
 
 TEST(SymbolTable, GrowsWithoutLosingNames) {
   std::vector<std::string> names;
+  names.reserve(5000);
   for (int i = 0; i < 5000; ++i) names.push_back("Name" + std::to_string(i));
   SymbolTable table;
   for (std::size_t i = 0; i < names.size(); ++i) {

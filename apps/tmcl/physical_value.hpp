@@ -4,7 +4,7 @@
 #include <string>
 
 #include "client/client.hpp"
-#include "firmware/spec/access.hpp"
+#include "firmware/spec/parameter_rows.hpp"
 
 namespace opentmcl::app {
 

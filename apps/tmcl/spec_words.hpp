@@ -3,13 +3,13 @@
 
 #include <string>
 
-#include "firmware/spec/access.hpp"
 #include "firmware/spec/axis_parameters.hpp"
 #include "firmware/spec/global_parameters.hpp"
 #include "firmware/spec/instructions.hpp"
 #include "firmware/spec/interrupts.hpp"
 #include "firmware/spec/io_ports.hpp"
 #include "firmware/spec/modules.hpp"
+#include "firmware/spec/parameter_rows.hpp"
 #include "firmware/spec/status_codes.hpp"
 
 namespace opentmcl::app {

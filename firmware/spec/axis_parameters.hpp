@@ -4,8 +4,8 @@
 
 #include <cstddef>
 
-#include "firmware/spec/access.hpp"
 #include "firmware/spec/modules.hpp"
+#include "firmware/spec/parameter_rows.hpp"
 
 namespace opentmcl {
 
@@ -77,17 +77,7 @@ enum class AxisParameter : std::uint8_t {
   step_direction_mode = 254,
 };
 
-struct AxisParameterSpec {
-  AxisParameter number;
-  const char* symbol;  ///< constant in TMCLParam.tmc
-  const char* name;
-  Unit unit;
-  ParameterColumn columns[module_count];  ///< in the order of ModuleId
-  const char* description;
-  const char* source;
-
-  constexpr const ParameterColumn& in(ModuleId module) const { return columns[static_cast<std::size_t>(module)]; }
-};
+using AxisParameterSpec = ParameterSpec<AxisParameter>;
 
 namespace spec_detail {
 inline constexpr std::int32_t speed = 2047;  // largest internal velocity, TMC429
@@ -274,17 +264,6 @@ inline constexpr AxisParameterSpec axis_parameters[] = {
 
 inline constexpr std::size_t axis_parameter_count = sizeof axis_parameters / sizeof axis_parameters[0];
 
-consteval bool axis_parameters_are_consistent() {
-  int previous = -1;
-  for (const AxisParameterSpec& row : axis_parameters) {
-    if (static_cast<int>(row.number) <= previous) return false;
-    previous = static_cast<int>(row.number);
-    for (const ParameterColumn& column : row.columns) {
-      if (!is_consistent(column)) return false;
-    }
-  }
-  return true;
-}
-static_assert(axis_parameters_are_consistent(), "rows sorted and unique, each default within its range");
+static_assert(is_parameter_table(axis_parameters), "rows sorted and unique, each default within its range");
 
 }  // namespace opentmcl

@@ -4,8 +4,8 @@
 
 #include <cstddef>
 
-#include "firmware/spec/access.hpp"
 #include "firmware/spec/modules.hpp"
+#include "firmware/spec/parameter_rows.hpp"
 
 namespace opentmcl {
 
@@ -44,17 +44,7 @@ enum class GlobalParameter : std::uint8_t {
   suppress_reply = 255,
 };
 
-struct GlobalParameterSpec {
-  GlobalParameter number;
-  const char* symbol;  ///< constant in TMCLParam.tmc
-  const char* name;
-  Unit unit;
-  ParameterColumn columns[module_count];  ///< in the order of ModuleId
-  const char* description;
-  const char* source;
-
-  constexpr const ParameterColumn& in(ModuleId module) const { return columns[static_cast<std::size_t>(module)]; }
-};
+using GlobalParameterSpec = ParameterSpec<GlobalParameter>;
 
 // clang-format off
 inline constexpr GlobalParameterSpec global_parameters[] = {
@@ -141,17 +131,6 @@ inline constexpr std::int32_t eeprom_unlock_code = 4321;
 /// What the value of commands 137 and 255 must be.
 inline constexpr std::int32_t confirmation_code = 1234;
 
-consteval bool global_parameters_are_consistent() {
-  int previous = -1;
-  for (const GlobalParameterSpec& row : global_parameters) {
-    if (static_cast<int>(row.number) <= previous) return false;
-    previous = static_cast<int>(row.number);
-    for (const ParameterColumn& column : row.columns) {
-      if (!is_consistent(column)) return false;
-    }
-  }
-  return true;
-}
-static_assert(global_parameters_are_consistent(), "rows sorted and unique, each default within its range");
+static_assert(is_parameter_table(global_parameters), "rows sorted and unique, each default within its range");
 
 }  // namespace opentmcl

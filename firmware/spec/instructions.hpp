@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "firmware/spec/access.hpp"
 #include "firmware/spec/global_parameters.hpp"
 #include "firmware/spec/modules.hpp"
+#include "firmware/spec/parameter_rows.hpp"
 
 namespace opentmcl {
 

@@ -4,8 +4,8 @@
 
 #include <cstddef>
 
-#include "firmware/spec/access.hpp"
 #include "firmware/spec/modules.hpp"
+#include "firmware/spec/parameter_rows.hpp"
 
 namespace opentmcl {
 

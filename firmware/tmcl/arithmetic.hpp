@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "firmware/spec/access.hpp"
+#include "firmware/spec/parameter_rows.hpp"
 
 namespace opentmcl {
 

@@ -98,7 +98,7 @@ Outcome Handlers::read_program_memory(Executor& executor, const Command& command
   bytes[1] = instruction.type;
   bytes[2] = instruction.motor;
   put_int32(bytes + 3, instruction.value);
-  unsigned sum = static_cast<unsigned>(parts(executor).global_parameters[GlobalParameter::serial_host_address]);
+  auto sum = static_cast<unsigned>(parts(executor).global_parameters[GlobalParameter::serial_host_address]);
   for (std::size_t i = 0; i < 7; ++i) sum += bytes[i];
   bytes[7] = static_cast<std::uint8_t>(sum);
   return {Status::ok, 0, Outcome::Form::special};

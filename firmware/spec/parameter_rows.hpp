@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+
+#include "firmware/spec/modules.hpp"
 
 namespace opentmcl {
 
@@ -79,6 +82,34 @@ inline constexpr ParameterColumn absent{Access::none, 0, 0, 0};
 
 constexpr bool is_consistent(const ParameterColumn& column) {
   return column.minimum <= column.default_value && column.default_value <= column.maximum;
+}
+
+/// A row of a parameter table: the same facts for axis and global parameters.
+template <class Number>
+struct ParameterSpec {
+  Number number;
+  const char* symbol;  ///< constant in TMCLParam.tmc
+  const char* name;
+  Unit unit;
+  ParameterColumn columns[module_count];  ///< in the order of ModuleId
+  const char* description;
+  const char* source;
+
+  constexpr const ParameterColumn& in(ModuleId module) const { return columns[static_cast<std::size_t>(module)]; }
+};
+
+/// Rows sorted by number and unique, each default within its range.
+template <class Number, std::size_t count>
+consteval bool is_parameter_table(const ParameterSpec<Number> (&table)[count]) {
+  int previous = -1;
+  for (const ParameterSpec<Number>& row : table) {
+    if (static_cast<int>(row.number) <= previous) return false;
+    previous = static_cast<int>(row.number);
+    for (const ParameterColumn& column : row.columns) {
+      if (!is_consistent(column)) return false;
+    }
+  }
+  return true;
 }
 
 inline constexpr std::int32_t int32_minimum = -2147483647 - 1;
