@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include "firmware/wire/framer.hpp"
 #include "tests/module/bench.hpp"
 
 namespace opentmcl::tests {
@@ -67,7 +66,7 @@ TEST(Framing, RecoversFromHalfADatagramAfterFiveMillisecondsOfSilence) {
     Bytes half = request(Opcode::gap);
     half.resize(length);
     EXPECT_TRUE(bench.send(half).empty());
-    bench.wait(Framer::gap);
+    bench.wait(5 * one_millisecond);
     const Bytes reply = bench.send(request(Opcode::gap));
     ASSERT_EQ(reply.size(), datagram_size);
     EXPECT_EQ(reply[2], 100);
