@@ -2,6 +2,7 @@
 
 #include "firmware/chip/braking_factor.hpp"
 #include "firmware/motion/driver_fields.hpp"
+#include "firmware/motion/wrapping.hpp"
 
 namespace opentmcl {
 
@@ -23,14 +24,6 @@ constexpr Microseconds position_period = 250 * one_millisecond;
 
 /// How often rest and motion are told apart, as in the vendor's firmware.
 constexpr Microseconds current_period = 10 * one_millisecond;
-
-/// Two's complement difference and sum that wrap, as counters do.
-constexpr std::int32_t wrapping_difference(std::int32_t a, std::int32_t b) {
-  return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
-}
-constexpr std::int32_t wrapping_sum(std::int32_t a, std::int32_t b) {
-  return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
-}
 
 }  // namespace
 

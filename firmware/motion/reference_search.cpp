@@ -1,5 +1,7 @@
 #include "firmware/motion/reference_search.hpp"
 
+#include "firmware/motion/wrapping.hpp"
+
 namespace opentmcl {
 
 namespace {
@@ -139,7 +141,7 @@ void ReferenceSearch::step() {
 /// The second switching point: the origin is in the middle of the two.
 void ReferenceSearch::note_edge() {
   // Half the difference, so that positions near the ends of the range do not overflow.
-  first_edge_ += (axis_.position() - first_edge_) / 2;
+  first_edge_ = wrapping_sum(first_edge_, wrapping_difference(axis_.position(), first_edge_) / 2);
   axis_.stop();
   state_ = State::stop;
 }
@@ -149,10 +151,10 @@ void ReferenceSearch::finish() {
   AxisSettings& settings = axis_.settings();
   settings.set(AxisParameter::last_reference_position, origin);
   if (uses_other_end(mode_)) {
-    const std::int32_t distance = other_end_ - origin;
-    settings.set(AxisParameter::end_switch_distance, distance < 0 ? -distance : distance);
+    const std::int32_t distance = wrapping_difference(other_end_, origin);
+    settings.set(AxisParameter::end_switch_distance, distance < 0 ? wrapping_difference(0, distance) : distance);
   }
-  axis_.set_position(axis_.position() - origin);
+  axis_.set_position(wrapping_difference(axis_.position(), origin));
   axis_.move_to(0);
   state_ = State::go_to_origin;
 }
