@@ -1,3 +1,4 @@
+#include "firmware/motion/wrapping.hpp"
 #include "firmware/tmcl/handlers.hpp"
 
 namespace opentmcl {
@@ -52,8 +53,7 @@ Outcome Handlers::move(Executor& executor, const Command& command, std::int32_t 
     case MoveMode::absolute:
       break;
     case MoveMode::relative:
-      target =
-          static_cast<std::int32_t>(static_cast<std::uint32_t>(axis.position()) + static_cast<std::uint32_t>(operand));
+      target = wrapping_sum(axis.position(), operand);
       outcome.value = target;
       break;
     case MoveMode::coordinate:
