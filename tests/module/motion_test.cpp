@@ -39,7 +39,7 @@ TEST(VelocityMode, RunsAtTheSpeedOfTheFormulaForEveryPulseDivisor) {
     const std::int64_t begin = bench.module.world().rotor_angle();
     const Microseconds time = 2'000 * one_millisecond;
     bench.wait(time);
-    const double steps = static_cast<double>(bench.module.world().rotor_angle() - begin);
+    const auto steps = static_cast<double>(bench.module.world().rotor_angle() - begin);
     EXPECT_NEAR(steps, pulses_per_second(1678, pulse_divisor) * static_cast<double>(time) / second, 1.0)
         << "pulse divisor " << pulse_divisor;
   }

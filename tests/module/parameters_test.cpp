@@ -205,6 +205,7 @@ TEST(RandomNumber, RepeatsItselfAfterTheSameSeedAndIsNeverNegative) {
   for (int round = 0; round < 2; ++round) {
     bench.set(GlobalParameter::random_number, 42);
     std::vector<std::int32_t> numbers;
+    numbers.reserve(100);
     for (int i = 0; i < 100; ++i) numbers.push_back(bench.get(GlobalParameter::random_number));
     for (const std::int32_t number : numbers) EXPECT_GE(number, 0);
     if (round == 0) first = numbers;
