@@ -42,6 +42,12 @@ std::string hexadecimal(const Datagram& datagram) {
 }
 
 Error refusal(const Command& command, Status status) {
+  if (status == Status::command_loaded) {
+    return {ErrorKind::refused,
+            "the module is in download mode: it made " + describe(command) +
+                " a part of its program instead of executing it. Command 133 ends that mode",
+            status};
+  }
   std::string meaning = "a status no manual lists";
   for (const StatusSpec& row : status_codes) {
     if (row.code == status) meaning = std::string(row.name) + ". " + row.description;
@@ -83,7 +89,7 @@ Result<Reply> Client::exchange(const Command& command) {
 Result<std::int32_t> Client::execute(const Command& command) {
   Result<Reply> reply = exchange(command);
   if (!reply) return reply.error();
-  if (reply->status != Status::ok && reply->status != Status::command_loaded) return refusal(command, reply->status);
+  if (reply->status != Status::ok) return refusal(command, reply->status);
   return reply->value;
 }
 

@@ -58,7 +58,8 @@ class Client {
   /// not: over USB a module answers with its own, whatever it was called.
   Result<Reply> exchange(const Command& command);
 
-  /// The value of the reply; `refused` for any status but ok and command loaded.
+  /// The value of the reply; `refused` for any status but ok: a module in download mode, too, has put the
+  /// command into its program instead of executing it.
   Result<std::int32_t> execute(const Command& command);
 
   /// The nine bytes that come back, unchecked: for the replies of commands 134 and 136 type 0, which have a form of

@@ -43,6 +43,14 @@ TEST_F(ClientTest, SaysWhatTheStatusOfARefusalMeans) {
   EXPECT_NE(std::string::npos, moved.error().message.find("MVP: status 4, invalid value"));
 }
 
+TEST_F(ClientTest, TakesACommandThatBecameAPartOfTheProgramForRefused) {
+  transport.answer(reply(gap, 0, Status::command_loaded));
+  const Result<std::int32_t> value = client.axis_parameter(AxisParameter::actual_position);
+  ASSERT_FALSE(value.ok());
+  EXPECT_EQ(ErrorKind::refused, value.error().kind);
+  EXPECT_NE(std::string::npos, value.error().message.find("download mode"));
+}
+
 TEST_F(ClientTest, WaitsNoLongerThanItsTimeLimit) {
   const Result<void> moved = client.move_to(1000);
   ASSERT_FALSE(moved.ok());
