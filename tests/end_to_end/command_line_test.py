@@ -153,6 +153,9 @@ class OverASerialPort(CommandLineTest):
     def at(self, code, *arguments):
         return self.expect(code, "--port", self.simulation.link, *arguments)
 
+    def program_is_running(self):
+        return self.json("--port", self.simulation.introduction["tcp"], "send", "135 0 0 0")["value"] >> 24 == 1
+
     def test_commands_act_on_one_and_the_same_module(self):
         self.at(0, "set", "4", "777")
         self.assertEqual("777", self.at(0, "get", "4").stdout.split()[0])
@@ -173,6 +176,8 @@ class OverASerialPort(CommandLineTest):
                                     self.write("p.tmc", ENDLESS)], stderr=subprocess.PIPE, text=True)
         host = self.simulation.host()
         self.addCleanup(host.close)
+        # Until it is loaded, any command but one about the program would become a part of it.
+        eventually(lambda: host.program_state() == 1, "the program's start")
         eventually(lambda: host.get(ACTUAL_SPEED) == 300, "the program's speed")
         process.send_signal(signal.SIGINT)
         errors = process.communicate(timeout=tmcl_host.DEADLINE)[1]
@@ -184,8 +189,7 @@ class OverASerialPort(CommandLineTest):
         process = subprocess.Popen([tmcl_path(), "--port", self.simulation.link, "run", "--quiet",
                                     self.write("p.tmc", ENDLESS)], stderr=subprocess.PIPE, text=True)
         try:
-            tcp = self.simulation.introduction["tcp"]
-            eventually(lambda: self.expect(0, "--port", tcp, "get", "actual-speed").stdout.startswith("300"), "its speed")
+            eventually(self.program_is_running, "the program's start")
             self.assertIn("in use", self.at(69, "get", "1").stderr)
         finally:
             process.send_signal(signal.SIGINT)
