@@ -7,7 +7,7 @@
 
 #include "apps/tmcl/commands.hpp"
 #include "apps/tmcl/context.hpp"
-#include "apps/tmcl/parameter_name.hpp"
+#include "apps/tmcl/parameter_choice.hpp"
 #include "apps/tmcl/physical_value.hpp"
 
 namespace opentmcl::app {
@@ -16,22 +16,14 @@ using client::Result;
 
 namespace {
 
-struct GetOptions {
-  std::string parameter;
-  int bank = -1;
-};
-
-Result<void> run_get(const Context& context, const GetOptions& options) {
-  const bool is_global = options.bank >= 0;
-  const auto bank = static_cast<Bank>(options.bank);
-  const Result<NamedParameter> parameter =
-      is_global ? find_global_parameter(options.parameter, bank) : find_axis_parameter(options.parameter);
+Result<void> run_get(const Context& context, const ParameterChoice& choice) {
+  const Result<NamedParameter> parameter = choice.find();
   if (!parameter) return parameter.error();
   const Result<Connection> connection = context.connect();
   if (!connection) return connection.error();
   client::Client& client = *connection->client;
-  const Result<std::int32_t> value =
-      is_global ? client.global_parameter(parameter->number, bank) : client.axis_parameter(parameter->number);
+  const Result<std::int32_t> value = choice.is_global() ? client.global_parameter(parameter->number, choice.bank())
+                                                        : client.axis_parameter(parameter->number);
   if (!value) return value.error();
   const Result<std::string> physical = physical_value(client, parameter->unit, *value);
   if (!physical) return physical.error();
@@ -42,7 +34,7 @@ Result<void> run_get(const Context& context, const GetOptions& options) {
                                 {"value", *value},
                                 {"unit", name_of(parameter->unit)},
                                 {"physical", *physical}};
-    if (is_global) data["bank"] = options.bank;
+    if (choice.is_global()) data["bank"] = choice.bank_number;
     fmt::print("{}\n", data.dump());
   } else if (physical->empty()) {
     fmt::print("{}\n", *value);
@@ -57,15 +49,13 @@ Result<void> run_get(const Context& context, const GetOptions& options) {
 }  // namespace
 
 void add_get(CLI::App& app, Context& context) {
-  auto options = std::make_shared<GetOptions>();
+  auto choice = std::make_shared<ParameterChoice>();
   CLI::App* command = app.add_subcommand("get", "read a parameter")->fallthrough();
   command->footer(
       "Examples:\n  tmcl get actual-position\n  tmcl get 4\n  tmcl get --global 0 serial-address\n"
       "  tmcl get --global 2 7           user variable 7");
-  command->add_option("PARAMETER", options->parameter, "axis parameter: a number, a symbol or a name of `tmcl spec`")
-      ->required();
-  command->add_option("--global", options->bank, "a global parameter of this bank instead")->check(CLI::Range(0, 3));
-  command->callback([&context, options] { context.finish(run_get(context, *options)); });
+  add_options(*command, *choice);
+  command->callback([&context, choice] { context.finish(run_get(context, *choice)); });
 }
 
 }  // namespace opentmcl::app

@@ -7,7 +7,7 @@
 
 #include "apps/tmcl/commands.hpp"
 #include "apps/tmcl/context.hpp"
-#include "apps/tmcl/parameter_name.hpp"
+#include "apps/tmcl/parameter_choice.hpp"
 
 namespace opentmcl::app {
 
@@ -16,22 +16,19 @@ using client::Result;
 namespace {
 
 struct SetOptions {
-  std::string parameter;
+  ParameterChoice choice;
   std::int32_t value = 0;
-  int bank = -1;
 };
 
 Result<void> run_set(const Context& context, const SetOptions& options) {
-  const bool is_global = options.bank >= 0;
-  const auto bank = static_cast<Bank>(options.bank);
-  const Result<NamedParameter> parameter =
-      is_global ? find_global_parameter(options.parameter, bank) : find_axis_parameter(options.parameter);
+  const Result<NamedParameter> parameter = options.choice.find();
   if (!parameter) return parameter.error();
   const Result<Connection> connection = context.connect();
   if (!connection) return connection.error();
   client::Client& client = *connection->client;
-  Result<void> written = is_global ? client.set_global_parameter(parameter->number, bank, options.value)
-                                   : client.set_axis_parameter(parameter->number, options.value);
+  Result<void> written = options.choice.is_global()
+                             ? client.set_global_parameter(parameter->number, options.choice.bank(), options.value)
+                             : client.set_axis_parameter(parameter->number, options.value);
   if (!written) return written;
   if (context.json) {
     fmt::print("{}\n", nlohmann::ordered_json{{"number", parameter->number}, {"value", options.value}}.dump());
@@ -45,10 +42,8 @@ void add_set(CLI::App& app, Context& context) {
   auto options = std::make_shared<SetOptions>();
   CLI::App* command = app.add_subcommand("set", "write a parameter")->fallthrough();
   command->footer("Examples:\n  tmcl set maximum-current 100\n  tmcl set 4 1000\n  tmcl set --global 2 7 -1");
-  command->add_option("PARAMETER", options->parameter, "axis parameter: a number, a symbol or a name of `tmcl spec`")
-      ->required();
+  add_options(*command, options->choice);
   command->add_option("VALUE", options->value, "in the parameter's own unit")->required();
-  command->add_option("--global", options->bank, "a global parameter of this bank instead")->check(CLI::Range(0, 3));
   command->callback([&context, options] { context.finish(run_set(context, *options)); });
 }
 
