@@ -54,7 +54,7 @@ struct Hosts : testing::Test {
 struct PtyEndpointTest : Hosts {
   PtyEndpointTest()
       : endpoint(PtyEndpoint::open(
-            events, [this] { echo(endpoint->port()); }, [this] { return now; })) {}
+            events, [this](WallTime) { echo(endpoint->port()); }, [this] { return now; })) {}
 
   std::unique_ptr<Transport> open() {
     auto host = client::open_serial(endpoint->path());
@@ -117,7 +117,8 @@ TEST_F(PtyEndpointTest, KeepsTheRepliesOfAHostThatIsSlowToRead) {
 
 struct TcpEndpointTest : Hosts {
   TcpEndpointTest()
-      : endpoint(TcpEndpoint::listen(events, TcpEndpoint::local_address, 0, [this] { echo(endpoint->port()); })) {}
+      : endpoint(
+            TcpEndpoint::listen(events, TcpEndpoint::local_address, 0, [this](WallTime) { echo(endpoint->port()); })) {}
 
   unsigned port_number() const {
     const std::string& url = endpoint->url();
@@ -159,14 +160,14 @@ TEST_F(TcpEndpointTest, LetsAHalfRequestOfOneHostNotDisturbAnother) {
 }
 
 TEST_F(TcpEndpointTest, SaysThatItsPortIsTaken) {
-  const auto another =
-      TcpEndpoint::listen(events, TcpEndpoint::local_address, static_cast<std::uint16_t>(port_number()), [] {});
+  const auto another = TcpEndpoint::listen(events, TcpEndpoint::local_address,
+                                           static_cast<std::uint16_t>(port_number()), [](WallTime) {});
   ASSERT_FALSE(another.ok());
   EXPECT_EQ(client::ErrorKind::input_output, another.error().kind);
 }
 
 TEST_F(TcpEndpointTest, ListensOnAddressesOnly) {
-  const auto another = TcpEndpoint::listen(events, "somewhere", 0, [] {});
+  const auto another = TcpEndpoint::listen(events, "somewhere", 0, [](WallTime) {});
   ASSERT_FALSE(another.ok());
   EXPECT_EQ(client::ErrorKind::usage, another.error().kind);
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <thread>
 #include <utility>
 
 namespace opentmcl::server {
@@ -15,6 +17,31 @@ constexpr Microseconds simulation_step = 10 * one_millisecond;
 /// A simulation that is slower than its speed asks for goes on from where it is, instead of hurrying after lost time
 /// for ever.
 constexpr std::chrono::milliseconds greatest_lag{50};
+
+/// Most hosts send the next request as soon as they have the reply. To be woken takes longer than all the rest of an
+/// answer, so the event loop is looked at this often, some 50 us, before it sleeps (docs/performance.md).
+constexpr int looks_after_a_request = 64;
+
+/// Ends the event loop's sleep at a given time. To set a timer costs the operating system more than the whole answer to
+/// a request, and every request puts the next turn off a little. So a timer that is set for too early stays; who is
+/// woken by it asks again.
+class WakeUp {
+ public:
+  explicit WakeUp(boost::asio::io_context& events) : timer_(events) {}
+
+  void no_later_than(WallTime time) {
+    if (time >= set_for_) return;
+    set_for_ = time;
+    timer_.expires_at(time);
+    timer_.async_wait([this](const boost::system::error_code& error) {
+      if (!error) set_for_ = WallTime::max();
+    });
+  }
+
+ private:
+  boost::asio::steady_timer timer_;
+  WallTime set_for_ = WallTime::max();  // max() while it is not set
+};
 
 }  // namespace
 
@@ -35,47 +62,59 @@ void LiveSimulation::start() {
 
 void LiveSimulation::run() {
   const auto keep_running = boost::asio::make_work_guard(events_);
+  WakeUp wake_up(events_);
   start();
   while (true) {
-    advance();
+    const WallTime next = next_turn();
+    const WallTime now = next == WallTime::max() ? WallTime{} : clock_();
+    if (next <= now) {
+      advance(now);
+      events_.poll();
+    } else {
+      wake_up.no_later_than(next);
+      if (!handles_event_soon()) events_.run_one();
+    }
     if (after_turn_) after_turn_();
     if (stopped_ || is_finished()) return;
-    const WallTime next = next_turn();
-    if (next == WallTime::max()) {
-      events_.run_one();
-    } else if (next > clock_()) {
-      events_.run_one_until(next);
-    }
-    events_.poll();
   }
+}
+
+bool LiveSimulation::handles_event_soon() {
+  if (!has_served_) return false;
+  has_served_ = false;
+  for (int look = 0; look < looks_after_a_request; ++look) {
+    if (events_.poll_one() > 0) return true;
+    std::this_thread::yield();
+  }
+  return false;
 }
 
 bool LiveSimulation::has_nothing_to_simulate() const {
   return pace_.is_maximum() && end_ == never && module_.next_turn() == never;
 }
 
-void LiveSimulation::advance() {
-  const WallTime begin = clock_();
-  last_turn_ = begin;
-  const Microseconds goal = std::min(pace_.simulated_at(begin), end_);
+void LiveSimulation::advance(WallTime now) {
+  last_turn_ = now;
+  const Microseconds goal = std::min(pace_.simulated_at(now), end_);
   while (module_.now() < goal && !has_nothing_to_simulate()) {
     // Up to the firmware's next turn nothing needs to be looked at.
     const Microseconds step = std::max(module_.now() + simulation_step, module_.next_turn());
     module_.advance_to(std::min(goal, step));
-    if (clock_() - begin >= longest_slice) break;
+    if (module_.now() < goal && clock_() - now >= longest_slice) break;
   }
   serve_ports();
-  if (!pace_.is_maximum() && clock_() - pace_.wall_at(module_.now()) > greatest_lag) {
-    pace_.anchor(clock_(), module_.now());
-  }
+  if (module_.now() >= goal || pace_.is_maximum()) return;
+  const WallTime after = clock_();
+  if (after - pace_.wall_at(module_.now()) > greatest_lag) pace_.anchor(after, module_.now());
 }
 
-void LiveSimulation::serve() {
+void LiveSimulation::serve(WallTime now) {
+  has_served_ = true;
   // At maximum speed the present is where the simulation is.
   if (pace_.is_maximum()) {
     serve_ports();
   } else {
-    advance();
+    advance(now);
   }
 }
 
@@ -85,17 +124,26 @@ std::size_t LiveSimulation::waiting_requests() const {
   return count;
 }
 
+void LiveSimulation::take_turn() {
+  module_.wake();
+  module_.advance_to(module_.now());
+}
+
 void LiveSimulation::serve_ports() {
   // A turn that takes no request may still prepare for the next one, as the first after power-on does.
   constexpr int most_vain_turns = 2;
   int vain_turns = 0;
-  for (std::size_t before = waiting_requests(); before > 0 && vain_turns < most_vain_turns;) {
-    module_.wake();
-    module_.advance_to(module_.now());
+  std::size_t before = waiting_requests();
+  if (before == 0) return;
+  while (before > 0 && vain_turns < most_vain_turns) {
+    take_turn();
     const std::size_t left = waiting_requests();
     vain_turns = left == before ? vain_turns + 1 : 0;
     before = left;
   }
+  // After a request the firmware wants another turn, in case there are more. Given at once, that turn tells when it
+  // really needs one, and a module that only waits for commands needs no timer.
+  if (before == 0) take_turn();
 }
 
 WallTime LiveSimulation::next_turn() const {

@@ -51,16 +51,21 @@ class LiveSimulation {
   /// Simulated time and the duration begin now.
   void start();
   /// A port has new requests: brings the module up to the present and lets it answer.
-  void serve();
+  /// @param now the wall clock's time
+  void serve(WallTime now);
   /// Brings the module up to the present, as far as one slice gets, and lets it answer.
-  void advance();
+  /// @param now the wall clock's time
+  void advance(WallTime now);
   bool is_finished() const { return module_.now() >= end_; }
   /// When advance() is next needed; WallTime::max() when only an event can change anything.
   WallTime next_turn() const;
 
  private:
+  /// Handles an event that comes shortly after a request. @return whether one came
+  bool handles_event_soon();
   bool has_nothing_to_simulate() const;
   std::size_t waiting_requests() const;
+  void take_turn();
   void serve_ports();
 
   boost::asio::io_context& events_;
@@ -72,6 +77,7 @@ class LiveSimulation {
   std::function<void()> after_turn_;
   Microseconds end_ = never;
   WallTime last_turn_{};
+  bool has_served_ = false;  // since the event loop last slept
   bool stopped_ = false;
 };
 

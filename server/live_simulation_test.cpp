@@ -19,11 +19,12 @@ constexpr Microseconds one_second = 1'000'000;
 /// A module at a port in memory, and a wall clock that the test moves.
 struct LiveSimulationTest : testing::Test {
   LiveSimulation make(LiveSimulation::Options options) {
-    return {events, module, {&line.port()}, options, [this] { return wall += clock_cost; }};
+    return {events, module, {&line.port()}, options, [this] { return now(); }};
   }
+  WallTime now() { return wall += clock_cost; }
   std::int32_t get(LiveSimulation& simulation, AxisParameter parameter) {
     line.send(encode(Request{1, {static_cast<std::uint8_t>(Opcode::gap), static_cast<std::uint8_t>(parameter), 0, 0}}));
-    simulation.serve();
+    simulation.serve(now());
     return take_reply().value;
   }
   Reply take_reply() {
@@ -38,12 +39,12 @@ struct LiveSimulationTest : testing::Test {
   void settle(LiveSimulation& simulation) {
     for (int i = 0; i < 100'000 && simulation.next_turn() != WallTime::max(); ++i) {
       wall = std::max(wall, simulation.next_turn());
-      simulation.advance();
+      simulation.advance(now());
     }
   }
   void rotate(LiveSimulation& simulation) {
     line.send(encode(Request{1, {static_cast<std::uint8_t>(Opcode::ror), 0, 0, 500}}));
-    simulation.serve();
+    simulation.serve(now());
     take_reply();
   }
 
@@ -58,7 +59,7 @@ TEST_F(LiveSimulationTest, FollowsTheWallClockAtItsSpeed) {
   LiveSimulation simulation = make({.speed = 10});
   simulation.start();
   wall += 2s;
-  while (module.now() < 20 * one_second) simulation.advance();
+  while (module.now() < 20 * one_second) simulation.advance(now());
   EXPECT_EQ(20 * one_second, module.now());
 }
 
@@ -76,7 +77,7 @@ TEST_F(LiveSimulationTest, AnswersEveryRequestThatIsThere) {
   for (int i = 0; i < 100; ++i) {
     line.send(encode(Request{1, {static_cast<std::uint8_t>(Opcode::gap), 1, 0, 0}}));
   }
-  simulation.serve();
+  simulation.serve(now());
   EXPECT_EQ(100 * datagram_size, line.received().size());
 }
 
@@ -89,11 +90,30 @@ TEST_F(LiveSimulationTest, SleepsUntilAnEventWhileTheModuleOnlyWaitsForCommands)
   }
 }
 
+TEST_F(LiveSimulationTest, NeedsNoTimerAfterARequestThatChangesNothing) {
+  LiveSimulation simulation = make({.speed = 1});
+  simulation.start();
+  settle(simulation);
+  get(simulation, AxisParameter::actual_position);
+  EXPECT_EQ(WallTime::max(), simulation.next_turn());
+}
+
+TEST_F(LiveSimulationTest, AnswersRequestsAndStopsInItsOwnLoop) {
+  LiveSimulation simulation = make({.speed = 1});
+  boost::asio::post(events, [&] {
+    line.send(encode(Request{1, {static_cast<std::uint8_t>(Opcode::gap), 1, 0, 0}}));
+    simulation.serve(now());
+    boost::asio::post(events, [&] { simulation.stop(); });
+  });
+  simulation.run();
+  EXPECT_EQ(datagram_size, line.received().size());
+}
+
 TEST_F(LiveSimulationTest, LeavesTheComputerAMillisecondBetweenTurns) {
   LiveSimulation simulation = make({.speed = 1});
   simulation.start();
   rotate(simulation);
-  simulation.advance();
+  simulation.advance(now());
   EXPECT_GE(simulation.next_turn(), wall + LiveSimulation::shortest_turn);
 }
 
@@ -104,11 +124,11 @@ TEST_F(LiveSimulationTest, RunsAtMaximumSpeedOnlyWhileThereIsSomethingToSimulate
   settle(simulation);
   const Microseconds idle_since = module.now();
   wall += 1h;
-  simulation.advance();
+  simulation.advance(now());
   EXPECT_EQ(idle_since, module.now());
 
   rotate(simulation);
-  simulation.advance();
+  simulation.advance(now());
   EXPECT_GT(module.now(), idle_since);
   EXPECT_LE(simulation.next_turn(), wall);
 }
@@ -119,7 +139,7 @@ TEST_F(LiveSimulationTest, LooksAtTheEventLoopBetweenSlices) {
   simulation.start();
   rotate(simulation);
   const WallTime begin = wall;
-  simulation.advance();
+  simulation.advance(now());
   EXPECT_LE(wall - begin, 2 * LiveSimulation::longest_slice);
 }
 
@@ -128,12 +148,12 @@ TEST_F(LiveSimulationTest, GoesOnFromWhereItIsWhenTheComputerIsTooSlow) {
   clock_cost = 1ms;
   simulation.start();
   rotate(simulation);
-  for (int i = 0; i < 200; ++i) simulation.advance();
+  for (int i = 0; i < 200; ++i) simulation.advance(now());
   const Microseconds reached = module.now();
   clock_cost = 0us;
   EXPECT_LE(simulation.next_turn(), wall + 50ms);
   wall += 1ms;
-  while (simulation.next_turn() <= wall) simulation.advance();
+  while (simulation.next_turn() <= wall) simulation.advance(now());
   EXPECT_LE(module.now(), reached + 60 * one_second);
 }
 

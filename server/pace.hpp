@@ -10,6 +10,8 @@ namespace opentmcl::server {
 using WallTime = std::chrono::steady_clock::time_point;
 /// Where real time comes from; a test moves its own.
 using WallClock = std::function<WallTime()>;
+/// Told that a port has new requests, and what the wall clock said when they came.
+using RequestsArrived = std::function<void(WallTime)>;
 
 /// How simulated time follows the clock on the wall: `speed` times as fast, from a common anchor on.
 class Pace {

@@ -30,7 +30,7 @@ bool make_raw(int terminal) {
 
 }  // namespace
 
-client::Result<PtyEndpoint> PtyEndpoint::open(boost::asio::io_context& events, std::function<void()> requests_arrived,
+client::Result<PtyEndpoint> PtyEndpoint::open(boost::asio::io_context& events, RequestsArrived requests_arrived,
                                               WallClock clock) {
   client::FileDescriptor own_side(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC));
   if (!own_side.is_open() || ::grantpt(own_side.get()) != 0 || ::unlockpt(own_side.get()) != 0) return no_pty();
@@ -40,7 +40,7 @@ client::Result<PtyEndpoint> PtyEndpoint::open(boost::asio::io_context& events, s
   if (!terminal.is_open() || !make_raw(terminal.get())) return no_pty();
 
   auto port = std::make_shared<RequestPort>();
-  using Stream = boost::asio::posix::stream_descriptor;
+  using Stream = boost::asio::posix::basic_stream_descriptor<boost::asio::io_context::executor_type>;
   std::make_shared<StreamLine<Stream>>(Stream(events, own_side.release()), port, std::move(requests_arrived),
                                        std::move(clock))
       ->read();

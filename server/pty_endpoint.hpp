@@ -21,7 +21,7 @@ class PtyEndpoint {
   /// @param requests_arrived called when port() has new requests
   /// @param clock tells the silence between two requests
   /// Error: input_output.
-  static client::Result<PtyEndpoint> open(boost::asio::io_context& events, std::function<void()> requests_arrived,
+  static client::Result<PtyEndpoint> open(boost::asio::io_context& events, RequestsArrived requests_arrived,
                                           WallClock clock = std::chrono::steady_clock::now);
 
   RequestPort& port() { return *port_; }

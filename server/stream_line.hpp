@@ -17,12 +17,12 @@ namespace opentmcl::server {
 
 /// One stream of bytes with a host at its other end: cuts it into requests for a port and sends the replies back in the
 /// same turn of the event loop. Lives as long as the stream is open.
-/// @tparam Stream boost::asio::posix::stream_descriptor or boost::asio::ip::tcp::socket
+/// @tparam Stream boost::asio::posix::basic_stream_descriptor or boost::asio::ip::tcp::socket
 template <class Stream>
 class StreamLine final : public ReplySink, public std::enable_shared_from_this<StreamLine<Stream>> {
  public:
   /// @param requests_arrived called when the port has new requests
-  StreamLine(Stream stream, std::shared_ptr<RequestPort> port, std::function<void()> requests_arrived, WallClock clock)
+  StreamLine(Stream stream, std::shared_ptr<RequestPort> port, RequestsArrived requests_arrived, WallClock clock)
       : stream_(std::move(stream)),
         port_(std::move(port)),
         requests_arrived_(std::move(requests_arrived)),
@@ -69,8 +69,9 @@ class StreamLine final : public ReplySink, public std::enable_shared_from_this<S
  private:
   void take(std::size_t count) {
     // Half a request is forgotten after 5 ms of silence on the wall clock, as the host sees it.
+    const WallTime wall = clock_();
     const auto now = static_cast<Microseconds>(
-        std::chrono::duration_cast<std::chrono::microseconds>(clock_().time_since_epoch()).count());
+        std::chrono::duration_cast<std::chrono::microseconds>(wall.time_since_epoch()).count());
     bool complete = false;
     for (std::size_t i = 0; i < count; ++i) {
       if (framer_.push(received_[i], now)) {
@@ -78,7 +79,7 @@ class StreamLine final : public ReplySink, public std::enable_shared_from_this<S
         complete = true;
       }
     }
-    if (complete) requests_arrived_();
+    if (complete) requests_arrived_(wall);
     // A host that does not read its replies may not send more either.
     if (unsent_.empty()) {
       read();
@@ -110,7 +111,7 @@ class StreamLine final : public ReplySink, public std::enable_shared_from_this<S
 
   Stream stream_;
   std::shared_ptr<RequestPort> port_;
-  std::function<void()> requests_arrived_;
+  RequestsArrived requests_arrived_;
   WallClock clock_;
   Framer framer_;
   std::array<std::uint8_t, 4096> received_{};

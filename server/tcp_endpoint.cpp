@@ -15,8 +15,7 @@ namespace {
 /// Accepts one connection after the other; lives as long as an accept is pending.
 class Acceptor : public std::enable_shared_from_this<Acceptor> {
  public:
-  Acceptor(tcp::acceptor acceptor, std::shared_ptr<RequestPort> port, std::function<void()> requests_arrived,
-           WallClock clock)
+  Acceptor(tcp::acceptor acceptor, std::shared_ptr<RequestPort> port, RequestsArrived requests_arrived, WallClock clock)
       : acceptor_(std::move(acceptor)),
         port_(std::move(port)),
         requests_arrived_(std::move(requests_arrived)),
@@ -39,7 +38,7 @@ class Acceptor : public std::enable_shared_from_this<Acceptor> {
 
   tcp::acceptor acceptor_;
   std::shared_ptr<RequestPort> port_;
-  std::function<void()> requests_arrived_;
+  RequestsArrived requests_arrived_;
   WallClock clock_;
 };
 
@@ -50,8 +49,7 @@ client::Error cannot_listen(const std::string& where, const boost::system::error
 }  // namespace
 
 client::Result<TcpEndpoint> TcpEndpoint::listen(asio::io_context& events, const std::string& address,
-                                                std::uint16_t port, std::function<void()> requests_arrived,
-                                                WallClock clock) {
+                                                std::uint16_t port, RequestsArrived requests_arrived, WallClock clock) {
   const std::string where = address + " port " + std::to_string(port);
   boost::system::error_code error;
   const asio::ip::address parsed = asio::ip::make_address(address, error);

@@ -29,7 +29,7 @@ class TcpEndpoint {
   /// @param clock tells the silence between two requests
   /// Errors: usage (no address), input_output (the port is taken or not allowed).
   static client::Result<TcpEndpoint> listen(boost::asio::io_context& events, const std::string& address,
-                                            std::uint16_t port, std::function<void()> requests_arrived,
+                                            std::uint16_t port, RequestsArrived requests_arrived,
                                             WallClock clock = std::chrono::steady_clock::now);
 
   RequestPort& port() { return *port_; }

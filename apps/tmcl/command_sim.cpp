@@ -124,7 +124,7 @@ class LiveDisplay {
  private:
   void refresh() {
     live_line_.ask();
-    simulation_.serve();
+    simulation_.serve(std::chrono::steady_clock::now());
     if (const std::optional<MotionState> state = live_line_.take_answers()) status_.show(describe(*state));
     timer_.expires_after(status_.period());
     timer_.async_wait([this](const boost::system::error_code& error) {
@@ -165,10 +165,11 @@ Result<void> run_sim(const Context& context, const SimOptions& options) {
     eeprom = std::move(*opened);
   }
 
-  asio::io_context events(1);
+  // This thread is the only one: nothing needs a lock.
+  asio::io_context events(BOOST_ASIO_CONCURRENCY_HINT_UNSAFE);
   std::optional<server::LiveSimulation> simulation;
-  Result<SimEndpoints> endpoints =
-      SimEndpoints::open(events, options.endpoints, description, [&simulation] { simulation->serve(); });
+  Result<SimEndpoints> endpoints = SimEndpoints::open(events, options.endpoints, description,
+                                                      [&simulation](server::WallTime now) { simulation->serve(now); });
   if (!endpoints) return endpoints.error();
   server::MemoryLine line;
   std::vector<server::RequestPort*> request_ports = endpoints->ports();

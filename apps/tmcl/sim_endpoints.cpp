@@ -28,7 +28,7 @@ Result<PtyLink> make_link(const std::string& wanted, const ModuleDescription& mo
 }
 
 Result<TcpEndpoint> listen(boost::asio::io_context& events, const std::string& wanted,
-                           const std::function<void()>& requests_arrived) {
+                           const server::RequestsArrived& requests_arrived) {
   if (wanted.empty()) {
     Result<TcpEndpoint> usual =
         TcpEndpoint::listen(events, TcpEndpoint::local_address, SimEndpoints::default_tcp_port, requests_arrived);
@@ -52,7 +52,7 @@ Result<TcpEndpoint> listen(boost::asio::io_context& events, const std::string& w
 
 Result<SimEndpoints> SimEndpoints::open(boost::asio::io_context& events, const Options& options,
                                         const ModuleDescription& module,
-                                        const std::function<void()>& requests_arrived) {
+                                        const server::RequestsArrived& requests_arrived) {
   std::optional<TcpEndpoint> tcp;
   if (options.tcp != "none") {
     Result<TcpEndpoint> opened = listen(events, options.tcp, requests_arrived);

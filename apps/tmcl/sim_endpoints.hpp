@@ -27,7 +27,7 @@ class SimEndpoints {
   /// @param requests_arrived called when one of the ports has new requests
   static client::Result<SimEndpoints> open(boost::asio::io_context& events, const Options& options,
                                            const ModuleDescription& module,
-                                           const std::function<void()>& requests_arrived);
+                                           const server::RequestsArrived& requests_arrived);
 
   std::vector<server::RequestPort*> ports();
 
