@@ -5,7 +5,7 @@
 
 #include "apps/tmcl/parameter_name.hpp"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): the library's name
 class App;
 }
 
