@@ -24,7 +24,14 @@ struct Registers {
   std::uint32_t eeprom_data;
   std::uint32_t inputs;
   std::uint32_t outputs;
-  std::uint32_t analog[4];
+  std::uint32_t analog[5];
+  std::uint32_t encoder_count;
+  std::uint32_t encoder_null_status[2];  ///< an event was seen: N low active, high active; reading clears it
+  std::uint32_t encoder_null_count;
+  std::uint32_t can_status;  ///< a frame was received
+  std::uint32_t can_id;      ///< bit 31: 29-bit identifier
+  std::uint32_t can_length;
+  std::uint32_t can_data[2];
 };
 
 extern "C" volatile Registers board_registers;
@@ -95,6 +102,44 @@ class Analog final : public hal::Analog {
   std::int32_t read(hal::AnalogInput input) override {
     return static_cast<std::int32_t>(board_registers.analog[static_cast<std::size_t>(input)]);
   }
+};
+
+class Encoder final : public hal::Encoder {
+ public:
+  std::int32_t count() override { return static_cast<std::int32_t>(board_registers.encoder_count); }
+
+  bool take_null_event(bool high_active, std::int32_t& count) override {
+    if (board_registers.encoder_null_status[high_active ? 1 : 0] == 0) return false;
+    count = static_cast<std::int32_t>(board_registers.encoder_null_count);
+    return true;
+  }
+};
+
+class Can final : public hal::CanPort {
+ public:
+  bool read(hal::CanFrame& frame) override {
+    if (board_registers.can_status == 0) return false;
+    const std::uint32_t id = board_registers.can_id;
+    frame.id = id & ~extended;
+    frame.is_extended = (id & extended) != 0;
+    frame.length = static_cast<std::uint8_t>(board_registers.can_length);
+    for (std::size_t i = 0; i < 8; ++i) {
+      frame.data[i] = static_cast<std::uint8_t>(board_registers.can_data[i / 4] >> 8 * (i % 4));
+    }
+    return true;
+  }
+
+  void write(const hal::CanFrame& frame) override {
+    board_registers.can_length = frame.length;
+    std::uint32_t words[2] = {};
+    for (std::size_t i = 0; i < 8; ++i) words[i / 4] |= std::uint32_t{frame.data[i]} << 8 * (i % 4);
+    board_registers.can_data[0] = words[0];
+    board_registers.can_data[1] = words[1];
+    board_registers.can_id = frame.id | (frame.is_extended ? extended : 0);
+  }
+
+ private:
+  static constexpr std::uint32_t extended = 1U << 31;
 };
 
 /// The whole main program; the reset handler ends here.

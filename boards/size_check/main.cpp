@@ -27,10 +27,12 @@ void sleep_until(Microseconds time) {
   Eeprom eeprom;
   Pins pins;
   Analog analog;
+  Encoder encoder;
+  Can can;
   Serial usb(0);
   Serial rs485(1);
   const hal::Port ports[] = {{&usb, hal::PortKind::usb}, {&rs485, hal::PortKind::rs485}};
-  const Hal hal{tmc429, tmc262, eeprom, pins, analog, ports, 2};
+  const Hal hal{tmc429, tmc262, eeprom, pins, analog, encoder, ports, 2, &can};
 
   // Static, so that their size is counted in .bss.
   static Module first(pd1161, hal);

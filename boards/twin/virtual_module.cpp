@@ -27,7 +27,9 @@ class VirtualModule::Board {
         eeprom_(world),
         pins_(world),
         analog_(world),
-        hal{tmc429_, tmc262_, eeprom_, pins_, analog_, ports.data(), static_cast<std::uint8_t>(ports.size())} {}
+        encoder_(world),
+        hal{tmc429_, tmc262_,  eeprom_,      pins_,
+            analog_, encoder_, ports.data(), static_cast<std::uint8_t>(ports.size())} {}
 
  private:
   struct MotionController final : hal::SpiDevice {
@@ -93,11 +95,39 @@ class VirtualModule::Board {
     twin::World& world;
   };
 
+  /// An encoder on the shaft with 1024 counts a turn of 200 full steps and its null position where the shaft stood at
+  /// the start.
+  struct ShaftEncoder final : hal::Encoder {
+    explicit ShaftEncoder(twin::World& w) : world(w) {}
+    std::int32_t count() override { return static_cast<std::int32_t>(position()); }
+    bool take_null_event(bool, std::int32_t& count) override {
+      const std::int64_t turn = position() >> counts_per_turn_bits;
+      if (turn == last_turn) return false;
+      // Upwards the null position is at the begin of the new turn, downwards at the begin of the old one.
+      count = static_cast<std::int32_t>((turn > last_turn ? turn : turn + 1) << counts_per_turn_bits);
+      last_turn = turn;
+      return true;
+    }
+
+   private:
+    static constexpr std::int64_t microsteps_per_count = 200 * 256 / 1024;
+    static constexpr unsigned counts_per_turn_bits = 10;
+
+    std::int64_t position() const {
+      const std::int64_t angle = world.rotor_angle();
+      return angle / microsteps_per_count - (angle % microsteps_per_count < 0 ? 1 : 0);
+    }
+
+    twin::World& world;
+    std::int64_t last_turn = 0;
+  };
+
   MotionController tmc429_;
   Driver tmc262_;
   EepromDevice eeprom_;
   PinBank pins_;
   Converter analog_;
+  ShaftEncoder encoder_;
 
  public:
   Hal hal;

@@ -3,7 +3,9 @@
 
 #include "firmware/hal/analog.hpp"
 #include "firmware/hal/byte_port.hpp"
+#include "firmware/hal/can_port.hpp"
 #include "firmware/hal/eeprom.hpp"
+#include "firmware/hal/encoder.hpp"
 #include "firmware/hal/pins.hpp"
 #include "firmware/hal/spi_device.hpp"
 #include "firmware/hal/time.hpp"
@@ -33,8 +35,10 @@ struct Hal {
   hal::Eeprom& eeprom;
   hal::Pins& pins;
   hal::Analog& analog;
+  hal::Encoder& encoder;
   const hal::Port* ports;
-  std::uint8_t port_count;  ///< 1…4
+  std::uint8_t port_count;      ///< 1…4
+  hal::CanPort* can = nullptr;  ///< none on a board without CAN
 };
 
 }  // namespace opentmcl

@@ -50,7 +50,7 @@ class MemoryPort final : public hal::BytePort {
 /// A board with nothing behind the firmware: reads of a chip's register return what was last written to it.
 class RegisterFileBoard {
  public:
-  RegisterFileBoard() : module_(pd1161, {tmc429_, tmc262_, eeprom_, pins_, analog_, &port_, 1}) {}
+  RegisterFileBoard() : module_(pd1161, {tmc429_, tmc262_, eeprom_, pins_, analog_, encoder_, &port_, 1}) {}
 
   MemoryPort& port() { return bytes_; }
   Module& module() { return module_; }
@@ -98,11 +98,17 @@ class RegisterFileBoard {
     std::int32_t read(hal::AnalogInput) override { return 0; }
   };
 
+  struct NoEncoder final : hal::Encoder {
+    std::int32_t count() override { return 0; }
+    bool take_null_event(bool, std::int32_t&) override { return false; }
+  };
+
   MotionController tmc429_;
   Driver tmc262_;
   Memory eeprom_;
   NoPins pins_;
   NoConverter analog_;
+  NoEncoder encoder_;
   MemoryPort bytes_;
   hal::Port port_{&bytes_, hal::PortKind::usb};
   Module module_;
