@@ -160,6 +160,10 @@ void VirtualModule::power_cycle() {
 
 void VirtualModule::take_turn() {
   const Microseconds time = now();
+  if (world_.input_changes() != noted_input_changes_) {
+    noted_input_changes_ = world_.input_changes();
+    module_->note_input_change();
+  }
   const Microseconds wanted = module_->poll(time);
   if (module_->restart_requested()) {
     restart();
@@ -169,8 +173,8 @@ void VirtualModule::take_turn() {
 }
 
 void VirtualModule::advance_to(Microseconds time) {
-  while (next_turn_ <= time) {
-    world_.advance_to(next_turn_ * twin::ticks_per_microsecond);
+  while (next_turn() <= time) {
+    world_.advance_to(next_turn() * twin::ticks_per_microsecond);
     take_turn();
   }
   world_.advance_to(time * twin::ticks_per_microsecond);

@@ -44,7 +44,7 @@ class VirtualModule {
   void wake() { next_turn_ = now(); }
 
   /// When the firmware next needs to run if nothing happens outside; `never` while it only waits for commands.
-  Microseconds next_turn() const { return next_turn_; }
+  Microseconds next_turn() const { return world_.input_changes() == noted_input_changes_ ? next_turn_ : now(); }
 
   /// Takes the supply away and gives it back: registers and RAM are lost, the EEPROM and the shaft stay.
   void power_cycle();
@@ -66,6 +66,7 @@ class VirtualModule {
   std::unique_ptr<Board> board_;
   std::unique_ptr<Module> module_;
   Microseconds next_turn_ = 0;
+  std::uint64_t noted_input_changes_ = 0;  ///< of the world, as the firmware knows of
 };
 
 }  // namespace opentmcl

@@ -24,8 +24,8 @@ constexpr std::int32_t high_sense_voltage = 310;
 constexpr std::int32_t low_sense_voltage = 165;
 constexpr unsigned full_steps_per_filtered_measurement = 4;
 
-/// What an unloaded motor shows: all energy flows back.
-constexpr std::int32_t ideal_load_measurement = tmc262::maximum_stall_guard_value;
+/// Under-voltage lockout, in mV (TMC2660C datasheet 19.2).
+constexpr std::int32_t reset_voltage = 7'000;
 
 template <class Register>
 bool only_sets(Word<Register> word, std::uint32_t modelled_bits) {
@@ -63,7 +63,25 @@ std::uint32_t microsteps_per_edge(Word<DriverControl> word) {
 
 }  // namespace
 
+void Tmc262::set_supply_voltage(std::int32_t millivolts) {
+  has_supply_ = millivolts >= reset_voltage;
+  if (!has_supply_) reset();
+}
+
+void Tmc262::reset() {
+  driver_control_ = {};
+  spi_coil_currents_ = {};
+  chopper_configuration_ = {};
+  cool_step_control_ = {};
+  stall_guard_and_current_ = {};
+  driver_configuration_ = {};
+  microstep_position_ = 0;
+  unmeasured_full_steps_ = 0;
+  stall_guard_value_.reset();
+}
+
 std::uint32_t Tmc262::transfer(std::uint32_t word, std::uint64_t clock) {
+  if (!has_supply_) return 0;
   const Word<Reply> answer = reply(clock);
   write(word & tmc262::word_mask);
   return answer.bits;
@@ -128,7 +146,7 @@ void Tmc262::write(std::uint32_t word) {
 
 void Tmc262::step_edge(bool rising, bool direction, std::uint64_t clock) {
   const bool active = rising || DriverControl::StepOnBothEdges::is_set(driver_control_);
-  if (!active || step_dir_off()) {
+  if (!active || !has_supply_ || step_dir_off()) {
     return;
   }
   latest_step_clock_ = clock;
@@ -148,7 +166,7 @@ void Tmc262::count_full_step() {
   const bool filtered = StallGuardAndCurrent::Filter::is_set(stall_guard_and_current_);
   if (unmeasured_full_steps_ >= (filtered ? full_steps_per_filtered_measurement : 1)) {
     unmeasured_full_steps_ = 0;
-    stall_guard_value_ = ideal_load_measurement;
+    stall_guard_value_ = load_measurement_;
   }
 }
 

@@ -10,8 +10,8 @@ namespace opentmcl::twin {
 
 /// Starts in the state after power-on: all registers 0, so Step/Dir mode, 256 microsteps, bridges off.
 ///
-/// The load is ideal: the rotor follows the field, so stallGuard2 measures its largest value on every full step that
-/// the motor makes and nothing at standstill; coolStep therefore has nothing to regulate and SE is CS.
+/// The load is ideal: the rotor follows the field. What stallGuard2 measures of it is set from outside, its largest
+/// value at the start; a measurement is made on every full step of the motor and none at standstill. SE is CS.
 /// Not modelled: microPlyer's microsteps between two STEP edges, coolStep, the chopper's time course, open-load and
 /// short-circuit detection. A write that asks for one of them that could be noticed, or that sets reserved bits, is
 /// counted.
@@ -42,6 +42,11 @@ class Tmc262 {
   void set_enable_not(bool level) { enable_not_ = level; }
   /// Chip temperature in °C: warning from 100, bridges off from 150, no hysteresis.
   void set_temperature(std::int32_t celsius) { temperature_ = celsius; }
+  /// Motor supply in mV. Below 7.0 V the chip is in reset: registers and sequencer are 0, words change nothing and are
+  /// answered by 0. (Typical value of the C silicon; none is known for the other.)
+  void set_supply_voltage(std::int32_t millivolts);
+  /// What stallGuard2 will measure from now on: 0 (a stall) to 1023 (no load).
+  void set_load_measurement(std::int32_t value) { load_measurement_ = value; }
 
   bool bridges_on() const;
   CoilPair coil_currents() const;
@@ -71,6 +76,7 @@ class Tmc262 {
   void write(std::uint32_t word);
   bool step_dir_off() const;
   void count_full_step();
+  void reset();
 
   tmc262::Word<tmc262::DriverControl> driver_control_;
   tmc262::Word<tmc262::CoilCurrents> spi_coil_currents_;
@@ -84,6 +90,8 @@ class Tmc262 {
   std::optional<std::int32_t> stall_guard_value_;  ///< empty until the first measurement; then replies carry it
   bool enable_not_ = false;
   std::int32_t temperature_ = 25;
+  bool has_supply_ = true;
+  std::int32_t load_measurement_ = tmc262::maximum_stall_guard_value;  ///< what an unloaded motor shows
   std::uint64_t unmodelled_writes_ = 0;
   std::uint32_t latest_unmodelled_write_ = 0;
 };

@@ -20,6 +20,8 @@ void World::power_cycle() {
   tmc429_->set_right_switch(right_switch_);
   tmc262_ = Tmc262{};
   tmc262_.set_temperature(temperature_);
+  tmc262_.set_load_measurement(load_measurement_);
+  tmc262_.set_supply_voltage(supply_voltage_);
   eeprom_.power_up();
   set_outputs(0);
   direction_ = false;
@@ -65,6 +67,7 @@ void World::set_outputs(std::uint32_t levels) {
 void World::set_inputs(std::uint32_t levels) {
   if (levels != inputs_) {
     inputs_ = levels;
+    ++input_changes_;
     report(now_, "inputs", levels);
   }
 }
@@ -92,8 +95,23 @@ void World::set_analog_input(unsigned channel, std::int32_t value) {
 }
 
 void World::set_supply_voltage(std::int32_t millivolts) {
+  if (millivolts == supply_voltage_) {
+    return;
+  }
   supply_voltage_ = millivolts;
+  ++input_changes_;
   report(now_, "supply_voltage", millivolts);
+  tmc262_.set_supply_voltage(millivolts);
+}
+
+void World::set_load_measurement(std::int32_t value) {
+  load_measurement_ = value;
+  report(now_, "load_measurement", value);
+  tmc262_.set_load_measurement(value);
+}
+
+void World::pulse_step_input(bool direction) {
+  step({driven_motor, now_ - powered_at_, StepSignal::pulse, direction});
 }
 
 void World::set_temperature(std::int32_t celsius) {

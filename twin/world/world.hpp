@@ -65,12 +65,20 @@ class World : private StepListener {
   /// Converter value, `channel` 0…3; the board says what each channel is. 0 at the start.
   std::int32_t analog_input(unsigned channel) const { return analog_inputs_.at(channel); }
   void set_analog_input(unsigned channel, std::int32_t value);
-  /// Motor supply in mV, 24 V at the start.
+  /// What stallGuard2 measures of the load: 0 (a stall) to 1023 (no load, at the start).
+  void set_load_measurement(std::int32_t value);
+  /// A pulse on the STEP input of the step/direction connector, which goes to the driver like those of the TMC429.
+  void pulse_step_input(bool direction);
+  /// Motor supply in mV, 24 V at the start. The chips' logic has a supply of its own; below 7 V the TMC262 loses its
+  /// registers.
   std::int32_t supply_voltage() const { return supply_voltage_; }
   void set_supply_voltage(std::int32_t millivolts);
   /// Temperature of the board and of the driver in °C, 25 at the start.
   std::int32_t temperature() const { return temperature_; }
   void set_temperature(std::int32_t celsius);
+
+  /// Rises with every change of an input or the supply from outside: the firmware has to look at them.
+  std::uint64_t input_changes() const { return input_changes_; }
 
   // ---- What can be measured there
 
@@ -102,6 +110,8 @@ class World : private StepListener {
   std::uint32_t inputs_ = 0;
   std::array<std::int32_t, analog_channel_count> analog_inputs_{};
   std::int32_t supply_voltage_ = 24'000;
+  std::int32_t load_measurement_ = tmc262::maximum_stall_guard_value;
+  std::uint64_t input_changes_ = 0;
   std::int32_t temperature_ = 25;
 };
 
