@@ -28,6 +28,8 @@ class Tmc262Driver {
   /// A reply in the wanted format. The format of a reply is the one in force before the transfer, so a change of
   /// format costs a second transfer.
   tmc262::Word<tmc262::Reply> reply(tmc262::ReplyFormat format);
+  /// A reply in the format that happens to be in force: its low eight bits are the same in all.
+  tmc262::Word<tmc262::Reply> reply() { return {spi_.transfer(tmc262::datagram(driver_control))}; }
 
  private:
   hal::SpiDevice& spi_;

@@ -6,7 +6,7 @@ namespace opentmcl::hal {
 
 enum class AnalogInput : std::uint8_t {
   ain0,            ///< general purpose analog input, 0…4095
-  supply_voltage,  ///< motor supply in 0.1 V; the board does the scaling
+  supply_voltage,  ///< motor supply in 0.1 V; the board does the scaling and tells changes: Module::note_input_change()
   temperature,     ///< board temperature in °C
   supply_counts,   ///< motor supply, 0…4095 converter counts (TMCM-1110)
   logic_supply,    ///< +5 V rail, 0…4095 converter counts (TMCM-1110)

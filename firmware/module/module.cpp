@@ -6,8 +6,9 @@ Module::Module(const ModuleDescription& description, const Hal& hal)
     : description_(description),
       hal_(hal),
       store_(hal.eeprom, description),
-      axis_(description.id, hal.tmc429, hal.tmc262),
+      axis_(description.id, hal),
       reference_search_(axis_, hal.pins),
+      supply_monitor_(hal.analog),
       axis_parameters_(description.id, axis_, store_, hal.pins),
       global_parameters_(description, axis_, store_),
       program_memory_(hal.eeprom, store_, description.program_capacity),
@@ -32,15 +33,50 @@ bool Module::start(Microseconds now) {
   axis_.initialise(global_parameters_.wiring());
   executor_.set_outputs(0);
   executor_.reset_tick_timer(now);
-  if (global_parameters_[GlobalParameter::auto_start] != 0 && program_memory_.is_complete()) {
-    program_machine_.run_from(0);
-  }
+  if (is_to_start_program()) program_machine_.run_from(0);
+  watch_supply(now);
   for (std::uint8_t index = 0; index < hal_.port_count; ++index) {
     lines_end_->bytes = hal_.ports[index].bytes;
     lines_end_->kind = hal_.ports[index].kind;
     ++lines_end_;
   }
   return true;
+}
+
+bool Module::is_to_start_program() const {
+  return global_parameters_[GlobalParameter::auto_start] != 0 && program_memory_.is_complete();
+}
+
+/// Source: PD-1161 manual, firmware history V1.35 and V1.38; docs/decisions/0026-under-voltage.md.
+void Module::watch_supply(Microseconds now) {
+  switch (supply_monitor_.look(now)) {
+    case SupplyMonitor::Change::none:
+      break;
+    case SupplyMonitor::Change::failed:
+      reference_search_.yield_motor();
+      axis_.lock();
+      executor_.note_supply_failure();
+      break;
+    case SupplyMonitor::Change::returned:
+      axis_.unlock(global_parameters_.wiring());
+      executor_.note_supply_return(is_to_start_program());
+      break;
+  }
+}
+
+void Module::note_input_change() {
+  supply_monitor_.look_again();
+  axis_.look_again();
+  parts_due_ = 0;
+}
+
+/// The axis stopped the motor, or cannot move it on.
+void Module::note_axis_events() {
+  const std::uint8_t events = axis_.take_events();
+  constexpr std::uint8_t stops =
+      static_cast<std::uint8_t>(AxisEvent::stall) | static_cast<std::uint8_t>(AxisEvent::deviation);
+  if ((events & stops) != 0) reference_search_.yield_motor();
+  executor_.note_axis_events(events);
 }
 
 /// Everything but the ports. @return when it is needed again
@@ -53,9 +89,11 @@ Microseconds Module::poll_parts(Microseconds now) {
   const auto needs = [&next](Microseconds time) {
     if (time < next) next = time;
   };
+  if (supply_monitor_.is_due(now)) watch_supply(now);
   needs(executor_.poll(now));
   needs(reference_search_.poll(now));
   needs(axis_.poll(now));
+  if (axis_.has_events()) note_axis_events();
   needs(store_.poll(now));
   needs(program_memory_.poll(now));
   if (report_line_ != nullptr) {

@@ -5,6 +5,7 @@
 #include "firmware/hal/hal.hpp"
 #include "firmware/motion/axis.hpp"
 #include "firmware/motion/reference_search.hpp"
+#include "firmware/motion/supply_monitor.hpp"
 #include "firmware/param/axis_parameter_access.hpp"
 #include "firmware/param/global_parameter_access.hpp"
 #include "firmware/param/parameter_store.hpp"
@@ -43,6 +44,10 @@ class Module {
     return parts_due < lines_due ? parts_due : lines_due;
   }
 
+  /// The level of an input changed, or the motor supply: the next poll() looks at all of them. A board that cannot tell
+  /// calls this every 10 ms.
+  void note_input_change();
+
   /// What a datagram came to.
   enum class Handling : std::uint8_t {
     answered,  ///< the reply is to be sent
@@ -78,6 +83,9 @@ class Module {
     return line.framer.filled(line.bytes->read(room, line.framer.missing()), now);
   }
   Microseconds poll_parts(Microseconds now);
+  void watch_supply(Microseconds now);
+  bool is_to_start_program() const;
+  void note_axis_events();
   Microseconds serve(Line& line, Microseconds now);
   void report_position();
   Recipient recipient_of(std::uint8_t address, hal::PortKind kind) const;
@@ -91,6 +99,7 @@ class Module {
   ParameterStore store_;
   Axis axis_;
   ReferenceSearch reference_search_;
+  SupplyMonitor supply_monitor_;
   AxisParameterAccess axis_parameters_;
   GlobalParameterAccess global_parameters_;
   ProgramMemory program_memory_;

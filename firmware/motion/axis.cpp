@@ -1,12 +1,10 @@
 #include "firmware/motion/axis.hpp"
 
 #include "firmware/chip/braking_factor.hpp"
-#include "firmware/motion/driver_fields.hpp"
 #include "firmware/motion/wrapping.hpp"
 
 namespace opentmcl {
 
-using tmc262::StallGuardAndCurrent;
 using tmc429::InterfaceConfiguration;
 using tmc429::RampMode;
 
@@ -19,36 +17,59 @@ constexpr std::int32_t reach = 1 << 22;
 /// When this little of the reach is left the chip's target moves on: 4 s at the highest step rate of 500 kHz.
 constexpr std::int32_t renewal_distance = 1 << 21;
 
-/// While the motor moves: how often the position is read. At 500 kHz the 24-bit counter wraps after 33 s.
-constexpr Microseconds position_period = 250 * one_millisecond;
+/// From a motion command to the first look at what came of it.
+constexpr Microseconds first_look = one_millisecond;
 
-/// How often rest and motion are told apart, as in the vendor's firmware.
-constexpr Microseconds current_period = 10 * one_millisecond;
+bool is_high(std::uint32_t inputs, hal::InputPin pin) {
+  return (inputs >> static_cast<unsigned>(pin) & 1) != 0;
+}
 
 }  // namespace
 
-Axis::Axis(ModuleId module, hal::SpiDevice& tmc429, hal::SpiDevice& tmc262)
-    : settings_(module), tmc429_(tmc429), tmc262_(tmc262) {}
+Axis::Axis(ModuleId module, const Hal& hal)
+    : settings_(module),
+      tmc429_(hal.tmc429),
+      pins_(hal.pins),
+      power_stage_(module, settings_, hal.tmc262),
+      encoder_(module, settings_, hal.encoder),
+      guard_(settings_, encoder_) {}
 
 void Axis::initialise(const Wiring& wiring) {
+  position_ = target_position_ = 0;
+  bring_up(wiring);
+  encoder_.initialise();
+}
+
+void Axis::bring_up(const Wiring& wiring) {
   apply(wiring);
   // After a restart of the microcontroller alone the chip may still be driving the motor: stop at once. In velocity
   // mode the position can be written without starting a move.
   tmc429_.write(tmc429::Mode::of(RampMode::velocity));
   tmc429_.write(tmc429::TargetVelocity::Value::of(0));
   tmc429_.write(tmc429::ActualVelocity::Value::of(0));
-  tmc429_.write(tmc429::ActualPosition::Value::of(0));
-  tmc429_.write(tmc429::TargetPosition::Value::of(0));
-  position_ = target_position_ = chip_target_ = 0;
+  tmc429_.write(tmc429::ActualPosition::Value::of(position_));
+  tmc429_.write(tmc429::TargetPosition::Value::of(position_));
+  chip_target_ = position_;
   write_mode();
   tmc429_.write(tmc429::MinimumVelocity::Value::of(settings_[AxisParameter::minimum_speed]));
   tmc429_.write(tmc429::MaximumVelocity::Value::of(settings_[AxisParameter::maximum_positioning_speed]));
   apply(AxisParameter::ramp_divisor);
   tmc429_.write(tmc429::ReferenceTolerance::Value::of(settings_[AxisParameter::reference_switch_tolerance]));
-  apply_driver_settings(settings_, false, tmc262_);
-  set_current(settings_[AxisParameter::maximum_current]);
-  tmc262_.send_all();
+  power_stage_.initialise();
   wake();
+}
+
+void Axis::lock() {
+  locked_ = true;
+  position();
+  if (is_positioning() && position_ != target_position_) note(AxisEvent::position_error);
+  stop_at_once();
+}
+
+void Axis::unlock(const Wiring& wiring) {
+  locked_ = false;
+  settings_.set(AxisParameter::ramp_mode, static_cast<std::int32_t>(RampMode::velocity));
+  bring_up(wiring);
 }
 
 void Axis::apply(const Wiring& wiring) {
@@ -57,6 +78,7 @@ void Axis::apply(const Wiring& wiring) {
                 InterfaceConfiguration::InvertDirection::of(wiring.reverse_shaft ? 1 : 0) |
                 InterfaceConfiguration::InvertSwitches::of(wiring.switches_active_low ? 1 : 0));
   tmc429_.write(tmc429::GlobalParameters::StepPulseLength::of(wiring.step_pulse_length));
+  encoder_.set_reversed(wiring.reverse_shaft);
 }
 
 void Axis::apply(AxisParameter parameter) {
@@ -95,27 +117,18 @@ void Axis::apply(AxisParameter parameter) {
     case AxisParameter::reference_switch_tolerance:
       tmc429_.write(tmc429::ReferenceTolerance::Value::of(settings_[AxisParameter::reference_switch_tolerance]));
       break;
-    case AxisParameter::maximum_current:
-    case AxisParameter::standby_current:
-      set_current(
-          settings_[power_ == Power::standby ? AxisParameter::standby_current : AxisParameter::maximum_current]);
+    case AxisParameter::encoder_prescaler:
+      encoder_.apply_prescaler();
+      break;
+    case AxisParameter::freewheeling_delay:
+    case AxisParameter::power_down_delay:
+    case AxisParameter::step_direction_mode:
+      look_again();
       break;
     default:
-      apply_driver();
+      power_stage_.apply(parameter);
       break;
   }
-}
-
-void Axis::apply_driver() {
-  const auto before = tmc262_;
-  apply_driver_settings(settings_, false, tmc262_);
-  if (!(tmc262_.driver_control == before.driver_control)) tmc262_.send(tmc262_.driver_control);
-  if (!(tmc262_.chopper_configuration == before.chopper_configuration)) tmc262_.send(tmc262_.chopper_configuration);
-  if (!(tmc262_.cool_step_control == before.cool_step_control)) tmc262_.send(tmc262_.cool_step_control);
-  if (!(tmc262_.stall_guard_and_current == before.stall_guard_and_current)) {
-    tmc262_.send(tmc262_.stall_guard_and_current);
-  }
-  if (!(tmc262_.driver_configuration == before.driver_configuration)) tmc262_.send(tmc262_.driver_configuration);
 }
 
 bool Axis::is_positioning() const {
@@ -125,8 +138,9 @@ bool Axis::is_positioning() const {
 void Axis::write_mode() {
   const bool left_off = !limit_stops_enabled_ || settings_[AxisParameter::left_limit_switch_disable] != 0;
   const bool right_off = !limit_stops_enabled_ || settings_[AxisParameter::right_limit_switch_disable] != 0;
-  tmc429_.write(tmc429::Mode::Ramp::of(settings_[AxisParameter::ramp_mode]) |
-                tmc429::Mode::DisableLeftStop::of(left_off ? 1 : 0) |
+  // In hold mode nothing but a written velocity moves the motor.
+  const std::int32_t mode = locked_ ? static_cast<std::int32_t>(RampMode::hold) : settings_[AxisParameter::ramp_mode];
+  tmc429_.write(tmc429::Mode::Ramp::of(mode) | tmc429::Mode::DisableLeftStop::of(left_off ? 1 : 0) |
                 tmc429::Mode::DisableRightStop::of(right_off ? 1 : 0) |
                 tmc429::Mode::SoftStop::of(settings_[AxisParameter::soft_stop]));
 }
@@ -144,7 +158,7 @@ void Axis::write_braking_factor() {
                     .word());
 }
 
-/// The target itself when the chip can reach it, else a point `reach` ahead that follow_position() moves on long
+/// The target itself when the chip can reach it, else a point `reach` ahead that lead_target() moves on long
 /// before the chip would brake for it: so a long move is one ramp.
 void Axis::write_target() {
   const std::int32_t distance = wrapping_difference(target_position_, position());
@@ -159,6 +173,7 @@ void Axis::write_target() {
 }
 
 void Axis::rotate(std::int32_t velocity) {
+  error_flags_ = 0;
   settings_.set(AxisParameter::ramp_mode, static_cast<std::int32_t>(RampMode::velocity));
   wake();
   // Mode first: in ramp mode the chip would overwrite the target velocity, and a raised limit would accelerate.
@@ -168,6 +183,7 @@ void Axis::rotate(std::int32_t velocity) {
 }
 
 void Axis::move_to(std::int32_t position) {
+  error_flags_ = 0;
   settings_.set(AxisParameter::ramp_mode, static_cast<std::int32_t>(RampMode::ramp));
   target_position_ = position;
   wake();
@@ -210,72 +226,101 @@ bool Axis::right_switch_active() {
   return tmc429::ReferenceSwitches::Right1::is_set(tmc429_.read<tmc429::ReferenceSwitches>());
 }
 
-std::int32_t Axis::load_value() {
-  return tmc262::Reply::StallGuardValue::in(tmc262_.reply(tmc262::ReplyFormat::stall_guard));
+std::int32_t Axis::take_error_flags() {
+  const std::uint8_t flags = error_flags_;
+  error_flags_ = 0;
+  return flags;
 }
 
-std::int32_t Axis::actual_current_scale() {
-  return tmc262::Reply::CurrentScale::in(tmc262_.reply(tmc262::ReplyFormat::stall_guard_and_current));
+std::uint8_t Axis::take_events() {
+  const std::uint8_t events = events_;
+  events_ = 0;
+  return events;
 }
 
-std::int32_t Axis::driver_flags() {
-  return tmc262::Reply::Flags::in(tmc262_.reply(tmc262::ReplyFormat::stall_guard));
+/// A hard stop: no ramp. Velocity mode, so that nothing drives on to a target.
+void Axis::stop_at_once() {
+  settings_.set(AxisParameter::ramp_mode, static_cast<std::int32_t>(RampMode::velocity));
+  write_mode();
+  tmc429_.write(tmc429::TargetVelocity::Value::of(0));
+  tmc429_.write(tmc429::ActualVelocity::Value::of(0));
 }
 
-void Axis::set_current(std::int32_t current) {
-  tmc262_.stall_guard_and_current =
-      StallGuardAndCurrent::CurrentScale::replaced(tmc262_.stall_guard_and_current, current_scale_of(current));
-  tmc262_.send(tmc262_.stall_guard_and_current);
+/// @param event stall or deviation
+void Axis::stop_because_of(AxisEvent event) {
+  if (is_positioning()) note(AxisEvent::position_error);
+  stop_at_once();
+  note(event);
+  error_flags_ |= static_cast<std::uint8_t>(event);
 }
 
-void Axis::wake() {
-  awake_ = true;
+/// Rest means that neither the actual nor the target velocity is other than zero: at the very start of a ramp the first
+/// of them still reads 0.
+RampState Axis::ramp_state() {
+  RampState ramp;
+  ramp.velocity = actual_velocity();
+  ramp.target_velocity = target_velocity();
+  const std::int32_t position = this->position();
+  const bool is_on_its_way = is_positioning() && position != chip_target_;
+  ramp.at_rest = locked_ || (ramp.velocity == 0 && ramp.target_velocity == 0 && !is_on_its_way);
+  if (ramp.velocity == 0) guard_.note_standstill(position);
+  ramp.held_by_switch = !ramp.at_rest && ramp.velocity == 0 && is_held_by_switch(ramp.target_velocity);
+  return ramp;
+}
+
+bool Axis::is_held_by_switch(std::int32_t target_velocity) {
+  if (!limit_stops_enabled_) return false;
+  const std::int32_t direction = is_positioning() ? wrapping_difference(chip_target_, position_) : target_velocity;
+  return direction < 0 ? settings_[AxisParameter::left_limit_switch_disable] == 0 && left_switch_active()
+                       : settings_[AxisParameter::right_limit_switch_disable] == 0 && right_switch_active();
 }
 
 Microseconds Axis::follow_motion(Microseconds now) {
   if (awake_) {
     awake_ = false;
-    if (power_ == Power::standby) set_current(settings_[AxisParameter::maximum_current]);
-    power_ = Power::run;
+    is_held_ = driver_is_shut_down_ = false;
+    power_stage_.energise();
+    next_check_ = now + first_look;
+    return next_check_;
   }
-  const Microseconds position_due = follow_position(now);
-  const Microseconds current_due = follow_current(now);
-  next_check_ = position_due < current_due ? position_due : current_due;
+  const std::uint32_t inputs = pins_.inputs();
+  RampState ramp = ramp_state();
+  if (!ramp.at_rest) {
+    lead_target();
+    note_obstacles(ramp);
+    if (guard(ramp, inputs)) ramp = ramp_state();
+  }
+  next_check_ = power_stage_.follow(ramp, is_high(inputs, hal::InputPin::step_dir_enable), now);
+  if (!ramp.at_rest) next_check_ = now + guard_.period();
   return next_check_;
 }
 
-Microseconds Axis::follow_position(Microseconds now) {
-  if (power_ == Power::standby) return never;
-  const std::int32_t position = this->position();
-  if (is_positioning() && chip_target_ != target_position_) {
-    const std::int32_t ahead = wrapping_difference(chip_target_, position);
-    if (ahead < renewal_distance && ahead > -renewal_distance) write_target();
-  }
-  return now + position_period;
+/// Long before the chip would brake for a target that is only a point on the way, it gets the next one.
+void Axis::lead_target() {
+  if (!is_positioning() || chip_target_ == target_position_) return;
+  const std::int32_t ahead = wrapping_difference(chip_target_, position_);
+  if (ahead < renewal_distance && ahead > -renewal_distance) write_target();
 }
 
-/// Standby current after the power down delay (parameter 214) at rest. Rest means that neither the actual nor the
-/// target velocity is other than zero: at the very start of a ramp the first of them still reads 0.
-Microseconds Axis::follow_current(Microseconds now) {
-  if (power_ == Power::standby) return never;
-  if (actual_velocity() != 0 || target_velocity() != 0 || (is_positioning() && position_ != chip_target_)) {
-    power_ = Power::run;
-    return now + current_period;
+void Axis::note_obstacles(const RampState& ramp) {
+  if (ramp.held_by_switch && !is_held_ && is_positioning()) note(AxisEvent::position_error);
+  is_held_ = ramp.held_by_switch;
+  const bool is_shut_down = power_stage_.is_shut_down();
+  if (is_shut_down && !driver_is_shut_down_) note(AxisEvent::driver_shutdown);
+  driver_is_shut_down_ = is_shut_down;
+  if (encoder_.waits_for_null()) encoder_.follow();
+}
+
+/// @return whether it had to stop the motor
+bool Axis::guard(const RampState& ramp, std::uint32_t inputs) {
+  if (guard_.sees_stall(ramp, position_, is_high(inputs, hal::InputPin::stall_guard))) {
+    stop_because_of(AxisEvent::stall);
+  } else if (guard_.sees_deviation(position_)) {
+    stop_because_of(AxisEvent::deviation);
+  } else {
+    return false;
   }
-  if (power_ == Power::run) {
-    power_ = Power::settling;
-    at_rest_since_ = now;
-  }
-  const Microseconds delay =
-      static_cast<Microseconds>(settings_[AxisParameter::power_down_delay]) * 10 * one_millisecond;
-  if (now - at_rest_since_ < delay) {
-    const Microseconds due = at_rest_since_ + delay;
-    const Microseconds next = now + current_period;
-    return due < next ? due : next;
-  }
-  power_ = Power::standby;
-  set_current(settings_[AxisParameter::standby_current]);
-  return never;
+  return true;
 }
 
 }  // namespace opentmcl

@@ -2,18 +2,21 @@
 
 #include <cstdint>
 
-#include "firmware/chip/tmc262_driver.hpp"
 #include "firmware/chip/tmc429_driver.hpp"
-#include "firmware/hal/time.hpp"
+#include "firmware/hal/hal.hpp"
 #include "firmware/motion/axis_settings.hpp"
+#include "firmware/motion/encoder_position.hpp"
+#include "firmware/motion/motion_guard.hpp"
+#include "firmware/motion/power_stage.hpp"
+#include "firmware/motion/ramp_state.hpp"
 
 namespace opentmcl {
 
-/// One motor: the ramp generator, its power stage, and 32-bit positions over the chip's 24-bit counter. Nothing else
-/// moves the motor.
+/// One motor: the ramp generator, its power stage and encoder, what stops it at once, and 32-bit positions over the
+/// chip's 24-bit counter. Nothing else moves the motor.
 class Axis {
  public:
-  Axis(ModuleId module, hal::SpiDevice& tmc429, hal::SpiDevice& tmc262);
+  Axis(ModuleId module, const Hal& hal);
 
   /// The values that axis parameters set. After changing one, call apply() with the parameter.
   AxisSettings& settings() { return settings_; }
@@ -29,6 +32,13 @@ class Axis {
   /// Brings both chips from power-on to the present settings; position 0, motor at rest.
   void initialise(const Wiring& wiring);
   void apply(const Wiring& wiring);
+
+  /// Stops the motor at once and keeps it from moving, whatever is commanded: there is no motor supply.
+  void lock();
+  /// Brings both chips up again, as the driver has lost its registers. The position stays, the motor stands until the
+  /// next motion command.
+  void unlock(const Wiring& wiring);
+  bool is_locked() const { return locked_; }
 
   /// Brings a changed setting to the chips.
   void apply(AxisParameter parameter);
@@ -60,46 +70,63 @@ class Axis {
   /// Lets the limit switches stop the motor as parameters 12 and 13 say, or not at all (reference search).
   void enable_limit_stops(bool enabled);
 
+  EncoderPosition& encoder() { return encoder_; }
+
   /// stallGuard2 value, 0…1023.
-  std::int32_t load_value();
+  std::int32_t load_value() { return power_stage_.load_value(); }
   /// Current scale in force, 0…31.
-  std::int32_t actual_current_scale();
+  std::int32_t actual_current_scale() { return power_stage_.actual_current_scale(); }
   /// Parameter 208: the low eight bits of every reply of the driver.
-  std::int32_t driver_flags();
+  std::int32_t driver_flags() { return power_stage_.flags(); }
 
-  /// Sets the current. @param current 0…255, see parameter 6
-  void set_current(std::int32_t current);
+  /// Parameter 207, AxisEvent bits: reading clears it, as every motion command does.
+  std::int32_t take_error_flags();
 
-  /// Follows the position counter, keeps the chip's target ahead on moves longer than its reach, and switches between
-  /// run and standby current. @return when it must be called again
+  /// Something happened since take_events().
+  bool has_events() const { return events_ != 0; }
+  /// @return AxisEvent bits
+  std::uint8_t take_events();
+
+  /// Watches the motor: stops it at a stall or a deviation, chooses its current, keeps the chip's target ahead on moves
+  /// longer than its reach. @return when it must be called again
   Microseconds poll(Microseconds now) { return awake_ || now >= next_check_ ? follow_motion(now) : next_check_; }
 
-  /// A motion command was carried out: poll() has work to do at once.
-  bool is_awake() const { return awake_; }
+  /// An input changed: the next poll() looks at it.
+  void look_again() { next_check_ = 0; }
 
  private:
-  enum class Power : std::uint8_t { run, settling, standby };
-
+  void bring_up(const Wiring& wiring);
   void write_mode();
   void write_braking_factor();
   void write_target();
-  void apply_driver();
+  void stop_at_once();
+  void stop_because_of(AxisEvent event);
+  void note(AxisEvent event) { events_ |= static_cast<std::uint8_t>(event); }
   bool is_positioning() const;
-  void wake();
+  bool is_held_by_switch(std::int32_t target_velocity);
+  RampState ramp_state();
+  void wake() { awake_ = true; }
   Microseconds follow_motion(Microseconds now);
-  Microseconds follow_position(Microseconds now);
-  Microseconds follow_current(Microseconds now);
+  void lead_target();
+  void note_obstacles(const RampState& ramp);
+  bool guard(const RampState& ramp, std::uint32_t inputs);
 
   AxisSettings settings_;
   Tmc429Driver tmc429_;
-  Tmc262Driver tmc262_;
+  hal::Pins& pins_;
+  PowerStage power_stage_;
+  EncoderPosition encoder_;
+  MotionGuard guard_;
   std::int32_t position_ = 0;         ///< as last read, microsteps
   std::int32_t target_position_ = 0;  ///< microsteps
   std::int32_t chip_target_ = 0;      ///< where the chip drives to: the target, or a point on the way
   bool limit_stops_enabled_ = true;
+  bool locked_ = false;
   bool awake_ = true;
-  Power power_ = Power::run;
-  Microseconds at_rest_since_ = 0;
+  bool is_held_ = false;              ///< by a limit switch, as last looked
+  bool driver_is_shut_down_ = false;  ///< as last looked
+  std::uint8_t error_flags_ = 0;      ///< parameter 207
+  std::uint8_t events_ = 0;           ///< AxisEvent bits
   Microseconds next_check_ = 0;
 };
 

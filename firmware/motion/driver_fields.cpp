@@ -22,13 +22,13 @@ tmc262::Word<DriverControl> driver_control(const AxisSettings& settings) {
 }
 
 /// Parameters 164 to 166 mean different fields in the two chopper modes (PD-1161 manual, chapter 4).
-tmc262::Word<ChopperConfiguration> chopper_configuration(const AxisSettings& settings) {
+tmc262::Word<ChopperConfiguration> chopper_configuration(const AxisSettings& settings, bool bridges_on) {
   const std::int32_t decay = settings[AxisParameter::disable_fast_decay_comparator];
   const std::int32_t end = settings[AxisParameter::chopper_hysteresis_end];
   const std::int32_t start = settings[AxisParameter::chopper_hysteresis_start];
   const auto common = ChopperConfiguration::BlankTime::of(settings[AxisParameter::chopper_blank_time]) |
                       ChopperConfiguration::RandomOffTime::of(settings[AxisParameter::random_off_time]) |
-                      ChopperConfiguration::OffTime::of(settings[AxisParameter::chopper_off_time]);
+                      ChopperConfiguration::OffTime::of(bridges_on ? settings[AxisParameter::chopper_off_time] : 0);
   if (settings[AxisParameter::constant_off_time_mode] == 0) {
     constexpr std::int32_t start_limit = ChopperConfiguration::HysteresisStart::maximum;  // the manual's 8 is one more
     return common | ChopperConfiguration::HysteresisDecrement::of(decay) |
@@ -61,14 +61,13 @@ tmc262::Word<DriverConfiguration> driver_configuration(const AxisSettings& setti
 
 }  // namespace
 
-void apply_driver_settings(const AxisSettings& settings, bool cool_step_allowed, Tmc262Driver& driver) {
+void apply_driver_settings(const AxisSettings& settings, const DriverState& state, Tmc262Driver& driver) {
   driver.driver_control = driver_control(settings);
-  driver.chopper_configuration = chopper_configuration(settings);
-  driver.cool_step_control = cool_step_control(settings, cool_step_allowed);
-  driver.stall_guard_and_current =
-      StallGuardAndCurrent::Filter::of(settings[AxisParameter::stall_guard_filter]) |
-      StallGuardAndCurrent::Threshold::of(settings[AxisParameter::stall_guard_threshold]) |
-      StallGuardAndCurrent::CurrentScale::of(StallGuardAndCurrent::CurrentScale::in(driver.stall_guard_and_current));
+  driver.chopper_configuration = chopper_configuration(settings, state.bridges_on);
+  driver.cool_step_control = cool_step_control(settings, state.cool_step);
+  driver.stall_guard_and_current = StallGuardAndCurrent::Filter::of(settings[AxisParameter::stall_guard_filter]) |
+                                   StallGuardAndCurrent::Threshold::of(settings[AxisParameter::stall_guard_threshold]) |
+                                   StallGuardAndCurrent::CurrentScale::of(current_scale_of(state.current));
   driver.driver_configuration =
       driver_configuration(settings, DriverConfiguration::reply_format_in(driver.driver_configuration));
 }

@@ -65,6 +65,15 @@ Status AxisParameterAccess::get(std::uint8_t number, std::int32_t& value) {
     case AxisParameter::driver_error_flags:
       value = axis_.driver_flags();
       break;
+    case AxisParameter::extended_error_flags:
+      value = axis_.take_error_flags();
+      break;
+    case AxisParameter::encoder_position:
+      value = axis_.encoder().position();
+      break;
+    case AxisParameter::absolute_encoder_value:
+      value = axis_.encoder().absolute_angle();
+      break;
     default:
       value = axis_.settings().in_row(row);
       break;
@@ -82,6 +91,9 @@ void AxisParameterAccess::apply(AxisParameter parameter, std::size_t row, std::i
       break;
     case AxisParameter::target_speed:
       axis_.set_target_velocity(value);
+      break;
+    case AxisParameter::encoder_position:
+      axis_.encoder().set_position(value);
       break;
     default:
       axis_.settings().set_row(row, value);

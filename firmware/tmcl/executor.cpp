@@ -60,6 +60,31 @@ void Executor::set_outputs(std::uint32_t levels) {
   parts_.pins.set_outputs(levels);
 }
 
+void Executor::note_axis_events(std::uint8_t events) {
+  ProgramMachine& machine = parts_.machine;
+  const auto happened = [events](AxisEvent event) { return (events & static_cast<std::uint8_t>(event)) != 0; };
+  const auto set = [&machine](ErrorFlag flag) { machine.registers.error_flags |= static_cast<std::uint8_t>(flag); };
+  if (happened(AxisEvent::deviation)) set(ErrorFlag::deviation);
+  if (happened(AxisEvent::position_error)) set(ErrorFlag::position);
+  if (happened(AxisEvent::driver_shutdown)) set(ErrorFlag::shutdown);
+  if (!machine.is_running()) return;
+  if (happened(AxisEvent::stall)) machine.interrupts.raise(row_of(Interrupt::stall_guard));
+  if (happened(AxisEvent::deviation)) machine.interrupts.raise(row_of(Interrupt::deviation));
+}
+
+void Executor::note_supply_failure() {
+  parts_.machine.stop();
+  parts_.machine.registers.error_flags |= static_cast<std::uint8_t>(ErrorFlag::external_alarm);
+}
+
+void Executor::note_supply_return(bool starts_program) {
+  if (!starts_program) return;
+  parts_.machine.reset();
+  parts_.machine.run_from(0);
+  // So the program can tell a return of the supply from power-on.
+  parts_.machine.registers.error_flags |= static_cast<std::uint8_t>(ErrorFlag::external_alarm);
+}
+
 InterruptController::Lines Executor::interrupt_lines() {
   InterruptController::Lines lines = 0;
   const auto set = [&lines](Interrupt interrupt, bool level) {

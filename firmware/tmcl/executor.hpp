@@ -75,6 +75,14 @@ class Executor {
 
   void set_outputs(std::uint32_t levels);
 
+  /// Tells the program what happened to the axis: error flags of JC, CALL and CLE, and the interrupts of stallGuard and
+  /// deviation while it runs. @param events AxisEvent bits
+  void note_axis_events(std::uint8_t events);
+  /// No motor supply: the program stops.
+  void note_supply_failure();
+  /// The motor supply is back. @param starts_program from its begin, as after power-on
+  void note_supply_return(bool starts_program);
+
   /// Global parameter 132 reads 0 at `now`.
   void reset_tick_timer(Microseconds now) { tick_timer_zero_ = now; }
 

@@ -15,6 +15,7 @@ constexpr std::int32_t maximum_velocity = tmc429::TargetVelocity::Value::maximum
 }  // namespace
 
 Outcome Handlers::rotate(Executor& executor, const Command& command, std::int32_t velocity) {
+  if (velocity != 0 && parts(executor).axis.is_locked()) return with_status(Status::command_not_available, command);
   parts(executor).reference_search.yield_motor();
   parts(executor).axis.rotate(velocity);
   return done(command);
@@ -68,6 +69,7 @@ Outcome Handlers::move(Executor& executor, const Command& command, std::int32_t 
   if (!is_motor && static_cast<MoveMode>(command.type) != MoveMode::coordinate) {
     return with_status(Status::invalid_value, command);
   }
+  if (axis.is_locked()) return with_status(Status::command_not_available, command);
   parts(executor).reference_search.yield_motor();
   axis.move_to(target);
   if (executor.source_ == Executor::Source::direct) executor.reported_move_ = true;
@@ -86,6 +88,7 @@ Outcome Handlers::reference_search(Executor& executor, const Command& command) {
   ReferenceSearch& search = parts(executor).reference_search;
   switch (static_cast<SearchAction>(command.type)) {
     case SearchAction::start:
+      if (parts(executor).axis.is_locked()) return with_status(Status::command_not_available, command);
       search.start();
       break;
     case SearchAction::stop:

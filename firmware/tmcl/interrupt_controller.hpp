@@ -30,6 +30,12 @@ class InterruptController {
   /// Notes edges of `lines` and timers that ran out since the last look. What is not enabled when it happens is lost.
   void observe(Microseconds now, Lines lines, const GlobalParameterAccess& settings);
 
+  /// Something happened that has no line. What is not enabled when it happens is lost.
+  /// @param row of the interrupt table
+  void raise(std::size_t row) {
+    if (is_enabled(row)) pending_ |= bit(row);
+  }
+
   /// The pending interrupt of the highest priority, which is then no longer pending.
   /// @return false when there is none
   bool take(std::uint16_t& vector);

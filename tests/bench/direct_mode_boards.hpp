@@ -94,8 +94,8 @@ class RegisterFileBoard {
     void set_outputs(std::uint32_t) override {}
   };
 
-  struct NoConverter final : hal::Analog {
-    std::int32_t read(hal::AnalogInput) override { return 0; }
+  struct Converter final : hal::Analog {
+    std::int32_t read(hal::AnalogInput) override { return 240; }  // enough as a supply voltage
   };
 
   struct NoEncoder final : hal::Encoder {
@@ -107,7 +107,7 @@ class RegisterFileBoard {
   Driver tmc262_;
   Memory eeprom_;
   NoPins pins_;
-  NoConverter analog_;
+  Converter analog_;
   NoEncoder encoder_;
   MemoryPort bytes_;
   hal::Port port_{&bytes_, hal::PortKind::usb};
