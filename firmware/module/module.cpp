@@ -34,7 +34,7 @@ bool Module::start(Microseconds now) {
   executor_.set_outputs(0);
   executor_.reset_tick_timer(now);
   if (is_to_start_program()) program_machine_.run_from(0);
-  watch_supply(now);
+  watch_supply();
   for (std::uint8_t index = 0; index < hal_.port_count; ++index) {
     lines_end_->bytes = hal_.ports[index].bytes;
     lines_end_->kind = hal_.ports[index].kind;
@@ -48,8 +48,8 @@ bool Module::is_to_start_program() const {
 }
 
 /// Source: PD-1161 manual, firmware history V1.35 and V1.38; docs/decisions/0026-under-voltage.md.
-void Module::watch_supply(Microseconds now) {
-  switch (supply_monitor_.look(now)) {
+void Module::watch_supply() {
+  switch (supply_monitor_.look()) {
     case SupplyMonitor::Change::none:
       break;
     case SupplyMonitor::Change::failed:
@@ -64,8 +64,14 @@ void Module::watch_supply(Microseconds now) {
   }
 }
 
+/// While the motor moves every 10 ms or faster, otherwise when there is a reason.
+void Module::watch_axis(Microseconds now) {
+  if (axis_.is_look_due(now)) watch_supply();
+  axis_.poll(now);
+  if (axis_.has_events()) note_axis_events();
+}
+
 void Module::note_input_change() {
-  supply_monitor_.look_again();
   axis_.look_again();
   parts_due_ = 0;
 }
@@ -89,11 +95,10 @@ Microseconds Module::poll_parts(Microseconds now) {
   const auto needs = [&next](Microseconds time) {
     if (time < next) next = time;
   };
-  if (supply_monitor_.is_due(now)) watch_supply(now);
   needs(executor_.poll(now));
   needs(reference_search_.poll(now));
-  needs(axis_.poll(now));
-  if (axis_.has_events()) note_axis_events();
+  if (axis_.is_due(now)) watch_axis(now);
+  needs(axis_.due());
   needs(store_.poll(now));
   needs(program_memory_.poll(now));
   if (report_line_ != nullptr) {

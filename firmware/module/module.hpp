@@ -83,7 +83,8 @@ class Module {
     return line.framer.filled(line.bytes->read(room, line.framer.missing()), now);
   }
   Microseconds poll_parts(Microseconds now);
-  void watch_supply(Microseconds now);
+  void watch_axis(Microseconds now);
+  void watch_supply();
   bool is_to_start_program() const;
   void note_axis_events();
   Microseconds serve(Line& line, Microseconds now);

@@ -49,14 +49,11 @@ void Axis::bring_up(const Wiring& wiring) {
   tmc429_.write(tmc429::ActualVelocity::Value::of(0));
   tmc429_.write(tmc429::ActualPosition::Value::of(position_));
   tmc429_.write(tmc429::TargetPosition::Value::of(position_));
-  chip_target_ = position_;
-  write_mode();
-  tmc429_.write(tmc429::MinimumVelocity::Value::of(settings_[AxisParameter::minimum_speed]));
-  tmc429_.write(tmc429::MaximumVelocity::Value::of(settings_[AxisParameter::maximum_positioning_speed]));
+  apply(AxisParameter::minimum_speed);
   apply(AxisParameter::ramp_divisor);
-  tmc429_.write(tmc429::ReferenceTolerance::Value::of(settings_[AxisParameter::reference_switch_tolerance]));
+  apply(AxisParameter::reference_switch_tolerance);
+  apply(AxisParameter::ramp_mode);
   power_stage_.initialise();
-  wake();
 }
 
 void Axis::lock() {
@@ -275,13 +272,15 @@ bool Axis::is_held_by_switch(std::int32_t target_velocity) {
                        : settings_[AxisParameter::right_limit_switch_disable] == 0 && right_switch_active();
 }
 
-Microseconds Axis::follow_motion(Microseconds now) {
+void Axis::poll(Microseconds now) {
   if (awake_) {
     awake_ = false;
     is_held_ = driver_is_shut_down_ = false;
     power_stage_.energise();
-    next_check_ = now + first_look;
-    return next_check_;
+    // The chips have their commands; what comes of them is seen a little later. Commands that come all the time do not
+    // put the look off.
+    if (next_look_ > now + first_look) next_look_ = now + first_look;
+    if (!is_look_due(now)) return;
   }
   const std::uint32_t inputs = pins_.inputs();
   RampState ramp = ramp_state();
@@ -290,9 +289,8 @@ Microseconds Axis::follow_motion(Microseconds now) {
     note_obstacles(ramp);
     if (guard(ramp, inputs)) ramp = ramp_state();
   }
-  next_check_ = power_stage_.follow(ramp, is_high(inputs, hal::InputPin::step_dir_enable), now);
-  if (!ramp.at_rest) next_check_ = now + guard_.period();
-  return next_check_;
+  next_look_ = power_stage_.follow(ramp, is_high(inputs, hal::InputPin::step_dir_enable), now);
+  if (!ramp.at_rest) next_look_ = now + guard_.period();
 }
 
 /// Long before the chip would brake for a target that is only a point on the way, it gets the next one.

@@ -88,11 +88,16 @@ class Axis {
   std::uint8_t take_events();
 
   /// Watches the motor: stops it at a stall or a deviation, chooses its current, keeps the chip's target ahead on moves
-  /// longer than its reach. @return when it must be called again
-  Microseconds poll(Microseconds now) { return awake_ || now >= next_check_ ? follow_motion(now) : next_check_; }
+  /// longer than its reach. To be called when it is due.
+  void poll(Microseconds now);
+  bool is_due(Microseconds now) const { return awake_ || is_look_due(now); }
+  /// Due for a look at motor and surroundings, not only because of a command.
+  bool is_look_due(Microseconds now) const { return now >= next_look_; }
+  /// When it is next due, if there is no command before.
+  Microseconds due() const { return next_look_; }
 
   /// An input changed: the next poll() looks at it.
-  void look_again() { next_check_ = 0; }
+  void look_again() { next_look_ = 0; }
 
  private:
   void bring_up(const Wiring& wiring);
@@ -106,7 +111,6 @@ class Axis {
   bool is_held_by_switch(std::int32_t target_velocity);
   RampState ramp_state();
   void wake() { awake_ = true; }
-  Microseconds follow_motion(Microseconds now);
   void lead_target();
   void note_obstacles(const RampState& ramp);
   bool guard(const RampState& ramp, std::uint32_t inputs);
@@ -127,7 +131,7 @@ class Axis {
   bool driver_is_shut_down_ = false;  ///< as last looked
   std::uint8_t error_flags_ = 0;      ///< parameter 207
   std::uint8_t events_ = 0;           ///< AxisEvent bits
-  Microseconds next_check_ = 0;
+  Microseconds next_look_ = 0;
 };
 
 }  // namespace opentmcl

@@ -2,8 +2,7 @@
 
 namespace opentmcl {
 
-SupplyMonitor::Change SupplyMonitor::look(Microseconds now) {
-  next_look_ = now + period;
+SupplyMonitor::Change SupplyMonitor::look() {
   const std::int32_t voltage = analog_.read(hal::AnalogInput::supply_voltage);
   if (is_good_ ? voltage >= stop_below : voltage <= release_above) return Change::none;
   is_good_ = !is_good_;

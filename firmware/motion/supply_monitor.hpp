@@ -3,7 +3,6 @@
 #include <cstdint>
 
 #include "firmware/hal/analog.hpp"
-#include "firmware/hal/time.hpp"
 
 namespace opentmcl {
 
@@ -13,21 +12,16 @@ class SupplyMonitor {
  public:
   static constexpr std::int32_t stop_below = 85;     ///< 0.1 V
   static constexpr std::int32_t release_above = 95;  ///< 0.1 V
-  static constexpr Microseconds period = 10 * one_millisecond;
 
   enum class Change : std::uint8_t { none, failed, returned };
 
   explicit SupplyMonitor(hal::Analog& analog) : analog_(analog) {}
 
-  bool is_due(Microseconds now) const { return now >= next_look_; }
-  Change look(Microseconds now);
-  /// The next is_due() is true.
-  void look_again() { next_look_ = 0; }
+  Change look();
 
  private:
   hal::Analog& analog_;
   bool is_good_ = true;
-  Microseconds next_look_ = 0;
 };
 
 }  // namespace opentmcl

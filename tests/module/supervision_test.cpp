@@ -170,6 +170,27 @@ Deviates: SGP 2, 2, 21
   EXPECT_EQ(variable(2), 21);
 }
 
+TEST_P(Supervision, LooksAtAMotorThatIsCommandedAllTheTime) {
+  bench.set(AxisParameter::stop_on_stall, 100);
+  bench.set(AxisParameter::smart_energy_threshold_speed, 200);
+  bench.set(AxisParameter::smart_energy_slow_run_current, 255);
+  bench.run_program(R"(
+         VECT 15, Stalled
+         EI 15
+         EI 255
+   Loop: ROR 0, 500
+         JA Loop
+Stalled: SGP 1, 2, 15
+         MST 0
+         STOP
+)");
+  wait_ms(500);
+  EXPECT_EQ(bench.get(AxisParameter::smart_energy_actual_current), 16);
+  bench.module.world().set_load_measurement(0);
+  wait_ms(200);
+  EXPECT_EQ(variable(1), 15);
+}
+
 TEST_P(Supervision, InterruptsOncePerStall) {
   bench.set(AxisParameter::stop_on_stall, 100);
   bench.run_program(R"(
