@@ -23,6 +23,7 @@ struct Registers {
   std::uint32_t eeprom_address;
   std::uint32_t eeprom_data;
   std::uint32_t inputs;
+  std::uint32_t input_change;  ///< an input or the supply changed; reading clears it
   std::uint32_t outputs;
   std::uint32_t analog[5];
   std::uint32_t encoder_count;

@@ -38,6 +38,10 @@ void sleep_until(Microseconds time) {
   static Module first(pd1161, hal);
   static Module second(tmcm1110, hal);
   for (;;) {
+    if (board_registers.input_change != 0) {
+      first.note_input_change();
+      second.note_input_change();
+    }
     const Microseconds first_due = first.poll(now());
     const Microseconds second_due = second.poll(now());
     if (first.restart_requested() || second.restart_requested()) {

@@ -270,5 +270,50 @@ RC_GTEST_PROP(Tmc262Bus, TakesAnyWords, ()) {
   }
 }
 
+TEST(Tmc262UnderVoltage, TakesAllRegistersAndTheSequencer) {
+  Tmc262 chip;
+  switch_bridges_on(chip);
+  send(chip, StallGuardAndCurrent::CurrentScale::of(21));
+  pulse(chip, up, 300);
+  chip.set_supply_voltage(7'000);
+  EXPECT_TRUE(chip.bridges_on());
+  EXPECT_EQ(chip.microstep_position(), 300u);
+  chip.set_supply_voltage(6'999);
+  EXPECT_FALSE(chip.bridges_on());
+  EXPECT_EQ(chip.current_scale(), 0);
+  EXPECT_EQ(chip.microstep_position(), 0u);
+  chip.set_supply_voltage(24'000);
+  EXPECT_FALSE(chip.bridges_on()) << "nobody wrote them again";
+}
+
+TEST(Tmc262UnderVoltage, KeepsTheChipFromTakingWordsAndSteps) {
+  Tmc262 chip;
+  chip.set_supply_voltage(0);
+  switch_bridges_on(chip);
+  EXPECT_EQ(chip.transfer(tmc262::datagram(DriverControl::Resolution::of(4)), 0), 0u);
+  pulse(chip, up, 10);
+  chip.set_supply_voltage(24'000);
+  EXPECT_FALSE(chip.bridges_on());
+  EXPECT_EQ(chip.microstep_position(), 0u);
+  switch_bridges_on(chip);
+  EXPECT_TRUE(chip.bridges_on());
+}
+
+TEST(Tmc262Load, IsMeasuredAtTheNextFullStep) {
+  Tmc262 chip;
+  switch_bridges_on(chip);
+  send(chip, DriverConfiguration::of(ReplyFormat::stall_guard));
+  chip.set_load_measurement(123);
+  EXPECT_EQ(Reply::StallGuardValue::in(send(chip, DriverControl::Resolution::of(0))), 0);
+  pulse(chip, up, 256);
+  EXPECT_EQ(Reply::StallGuardValue::in(send(chip, DriverControl::Resolution::of(0))), 123);
+  chip.set_load_measurement(0);
+  pulse(chip, up, 255);
+  EXPECT_FALSE(chip.stall_guard_output()) << "within the full step";
+  pulse(chip, up, 1);
+  EXPECT_TRUE(chip.stall_guard_output());
+  EXPECT_TRUE(Reply::StallGuardReached::is_set(send(chip, DriverControl::Resolution::of(0))));
+}
+
 }  // namespace
 }  // namespace opentmcl::twin

@@ -115,6 +115,44 @@ TEST(World, StartsWithTwentyFourVoltsAtRoomTemperature) {
   EXPECT_EQ(world.analog_input(0), 0);
 }
 
+TEST(World, TellsTheDriverItsSupply) {
+  World world;
+  start(world);
+  world.set_supply_voltage(5'000);
+  EXPECT_FALSE(world.tmc262().bridges_on());
+  set<tmc429::TargetPosition>(world, 1000);
+  world.advance_to(2000 * millisecond);
+  EXPECT_EQ(get<tmc429::ActualPosition>(world), 1000) << "the motion controller runs from the logic supply";
+  EXPECT_EQ(world.rotor_angle(), 0);
+  world.power_cycle();
+  world.set_supply_voltage(24'000);
+  start(world);
+  EXPECT_TRUE(world.tmc262().bridges_on());
+}
+
+TEST(World, TurnsTheRotorByPulsesFromTheConnector) {
+  World world;
+  start(world);
+  world.advance_to(millisecond);
+  for (int i = 0; i < 5; ++i) {
+    world.pulse_step_input(false);
+  }
+  EXPECT_EQ(world.rotor_angle(), 5);
+  world.pulse_step_input(true);
+  EXPECT_EQ(world.rotor_angle(), 4);
+  EXPECT_EQ(get<tmc429::ActualPosition>(world), 0);
+}
+
+TEST(World, CountsWhatTheFirmwareHasToLookAt) {
+  World world;
+  world.set_inputs(1);
+  world.set_inputs(1);
+  EXPECT_EQ(world.input_changes(), 1u);
+  world.set_supply_voltage(9'000);
+  world.set_supply_voltage(9'000);
+  EXPECT_EQ(world.input_changes(), 2u);
+}
+
 TEST(World, TellsTheDriverItsTemperature) {
   World world;
   start(world);
