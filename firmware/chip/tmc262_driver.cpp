@@ -12,6 +12,16 @@ void Tmc262Driver::send_all() {
   send(driver_configuration);
 }
 
+tmc262::Word<tmc262::Reply> Tmc262Driver::refresh() {
+  constexpr std::uint8_t register_count = 5;
+  const std::uint32_t datagrams[register_count] = {
+      tmc262::datagram(driver_control), tmc262::datagram(chopper_configuration), tmc262::datagram(cool_step_control),
+      tmc262::datagram(stall_guard_and_current), tmc262::datagram(driver_configuration)};
+  const std::uint32_t datagram = datagrams[next_refresh_];
+  next_refresh_ = static_cast<std::uint8_t>((next_refresh_ + 1) % register_count);
+  return {spi_.transfer(datagram)};
+}
+
 tmc262::Word<tmc262::Reply> Tmc262Driver::reply(tmc262::ReplyFormat format) {
   if (DriverConfiguration::reply_format_in(driver_configuration) != format) {
     driver_configuration =

@@ -28,11 +28,13 @@ class Tmc262Driver {
   /// A reply in the wanted format. The format of a reply is the one in force before the transfer, so a change of
   /// format costs a second transfer.
   tmc262::Word<tmc262::Reply> reply(tmc262::ReplyFormat format);
-  /// A reply in the format that happens to be in force: its low eight bits are the same in all.
-  tmc262::Word<tmc262::Reply> reply() { return {spi_.transfer(tmc262::datagram(driver_control))}; }
+  /// Writes the next of the five registers in turn, for the chip loses them at an under-voltage too short to be seen.
+  /// @return a reply in the format that happens to be in force: its low eight bits are the same in all
+  tmc262::Word<tmc262::Reply> refresh();
 
  private:
   hal::SpiDevice& spi_;
+  std::uint8_t next_refresh_ = 0;  ///< 0…4, in the order of send_all()
 };
 
 }  // namespace opentmcl

@@ -267,6 +267,8 @@ RampState Axis::ramp_state() {
 
 bool Axis::is_held_by_switch(std::int32_t target_velocity) {
   if (!limit_stops_enabled_) return false;
+  const std::int32_t tolerance = settings_[AxisParameter::reference_switch_tolerance];
+  if (tolerance != 0 && position_ >= -tolerance && position_ <= tolerance) return false;
   const std::int32_t direction = is_positioning() ? wrapping_difference(chip_target_, position_) : target_velocity;
   return direction < 0 ? settings_[AxisParameter::left_limit_switch_disable] == 0 && left_switch_active()
                        : settings_[AxisParameter::right_limit_switch_disable] == 0 && right_switch_active();

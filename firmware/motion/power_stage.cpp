@@ -93,7 +93,7 @@ Microseconds PowerStage::follow(const RampState& ramp, bool enable, Microseconds
   Microseconds due = never;
   if (switching.follows_motion) {
     bool at_rest = ramp.at_rest || (ramp.held_by_switch && settings_[AxisParameter::end_switch_power_down] != 0);
-    if (takes_external_steps()) at_rest = at_rest && tmc262::Reply::Standstill::is_set(tmc262_.reply());
+    if (takes_external_steps()) at_rest = at_rest && tmc262::Reply::Standstill::is_set(tmc262_.refresh());
     due = follow_rest(at_rest, now, power);
   } else if (switching.enable_selects_current && !enable) {
     power = Power::standby;
@@ -160,12 +160,12 @@ std::int32_t PowerStage::actual_current_scale() {
 }
 
 std::int32_t PowerStage::flags() {
-  return tmc262::Reply::Flags::in(tmc262_.reply());
+  return tmc262::Reply::Flags::in(tmc262_.refresh());
 }
 
 bool PowerStage::is_shut_down() {
   using tmc262::Reply;
-  return (tmc262_.reply().bits &
+  return (tmc262_.refresh().bits &
           (Reply::Overtemperature::mask | Reply::ShortToGroundA::mask | Reply::ShortToGroundB::mask)) != 0;
 }
 

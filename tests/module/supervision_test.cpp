@@ -308,6 +308,19 @@ TEST_P(Supervision, TellsTheProgramByErrorFlagsUntilItClearsThem) {
   }
 }
 
+TEST(ReferenceSwitchTolerance, KeepsALimitSwitchFromBeingAnObstacle) {
+  for (const std::int32_t tolerance : {0, 3'000}) {
+    Bench bench(tmcm1110);
+    bench.set(AxisParameter::reference_switch_tolerance, tolerance);
+    bench.set(AxisParameter::right_limit_switch_disable, 0);
+    bench.set(AxisParameter::maximum_acceleration, 1);  // for many looks at a motor that does not turn yet
+    bench.module.world().set_right_switch(true);
+    bench.run_program("MVP ABS, 0, 2000\nWAIT TICKS, 0, 10\n" + std::string(report_flags));
+    bench.wait(1'000 * one_millisecond);
+    EXPECT_EQ(bench.command(Opcode::ggp, 1, 2).value, tolerance == 0 ? epo : 0);
+  }
+}
+
 TEST_P(Supervision, LetsTheModuleSleepWhenTheMotorHasBeenStopped) {
   bench.set(AxisParameter::stop_on_stall, 100);
   bench.set(AxisParameter::maximum_encoder_deviation, 1000);

@@ -117,6 +117,18 @@ TEST_P(Supply, GivesTheDriverItsRegistersBack) {
   EXPECT_EQ(bench.get(AxisParameter::actual_position), 1500);
 }
 
+TEST_P(Supply, GivesThemBackAfterADipTooShortToBeSeenToo) {
+  bench.command(Opcode::ror, 0, 0, 500);
+  wait_ms(500);
+  bench.module.world().set_supply_voltage(5'000);
+  bench.module.world().set_supply_voltage(24'000);
+  EXPECT_FALSE(bench.module.world().tmc262().bridges_on());
+  wait_ms(60);
+  EXPECT_TRUE(bench.module.world().tmc262().bridges_on());
+  EXPECT_EQ(bench.get(AxisParameter::smart_energy_actual_current), 16);
+  EXPECT_EQ(bench.get(AxisParameter::actual_speed), 500);
+}
+
 TEST_P(Supply, BringsTheDriverUpWhenTheMotorSupplyComesLate) {
   power_on_with(0);
   EXPECT_FALSE(can_move());
