@@ -11,7 +11,7 @@ Module::Module(const ModuleDescription& description, const Hal& hal)
       supply_monitor_(hal.analog),
       axis_parameters_(description.id, axis_, store_, hal.pins),
       global_parameters_(description, axis_, store_),
-      program_memory_(hal.eeprom, store_, description.program_capacity),
+      program_memory_(hal.eeprom, store_, description),
       executor_({description, axis_, reference_search_, axis_parameters_, global_parameters_, program_machine_,
                  program_memory_, store_, hal.pins, hal.analog}) {}
 
@@ -74,6 +74,7 @@ void Module::watch_axis(Microseconds now) {
 void Module::note_input_change() {
   axis_.look_again();
   parts_due_ = 0;
+  others_due_ = 0;
 }
 
 /// The axis stopped the motor, or cannot move it on.
@@ -86,16 +87,16 @@ void Module::note_axis_events() {
 }
 
 /// Everything but the ports. @return when it is needed again
-Microseconds Module::poll_parts(Microseconds now) {
+Microseconds Module::poll_all(Microseconds now) {
   if (!started_) {
     started_ = start(now);
     if (!started_) return now + ParameterStore::poll_period;
   }
+  executor_.poll(now);
   Microseconds next = never;
   const auto needs = [&next](Microseconds time) {
     if (time < next) next = time;
   };
-  needs(executor_.poll(now));
   needs(reference_search_.poll(now));
   if (axis_.is_due(now)) watch_axis(now);
   needs(axis_.due());
@@ -112,8 +113,14 @@ Microseconds Module::poll_parts(Microseconds now) {
       needs(now + ParameterStore::poll_period);
     }
   }
+  if (!program_machine_.is_running()) {
+    parts_due_ = next;
+    return next;
+  }
+  others_due_ = next;
   // A program may wait for an input, and any turn may be the one that sees it.
-  parts_due_ = program_machine_.is_running() ? now : next;
+  parts_due_ = now;
+  needs(executor_.next_turn());
   return next;
 }
 
@@ -158,7 +165,7 @@ Module::Handling Module::handle(const Datagram& request, hal::PortKind kind, Mic
   const Command command = decode_request(request).command;
   const Outcome outcome = executor_.execute_direct(command, now);
   // All commands but those that read may have given the parts something to do.
-  if (outcome.form != Outcome::Form::result) parts_due_ = now;
+  if (outcome.form != Outcome::Form::result) parts_due_ = others_due_ = now;
   if (outcome.form == Outcome::Form::busy) return Handling::busy;
   if (outcome.form == Outcome::Form::silent && outcome.status == Status::ok) return Handling::silent;
   if (recipient == Recipient::group) return Handling::silent;

@@ -82,7 +82,12 @@ class Module {
     std::uint8_t* const room = line.framer.room(now);
     return line.framer.filled(line.bytes->read(room, line.framer.missing()), now);
   }
-  Microseconds poll_parts(Microseconds now);
+  Microseconds poll_parts(Microseconds now) {
+    // Most turns of a program only calculate: they end here.
+    constexpr Microseconds at_once = 0;
+    return now < others_due_ && executor_.calculate() ? at_once : poll_all(now);
+  }
+  [[gnu::noinline]] Microseconds poll_all(Microseconds now);
   void watch_axis(Microseconds now);
   void watch_supply();
   bool is_to_start_program() const;
@@ -109,7 +114,8 @@ class Module {
   Line lines_[maximum_lines];
   Line* lines_end_ = lines_;  ///< no port is read before the start
   bool started_ = false;
-  Microseconds parts_due_ = 0;  ///< when poll_parts() is needed unless a command comes before
+  Microseconds parts_due_ = 0;   ///< when poll_parts() is needed unless a command comes before
+  Microseconds others_due_ = 0;  ///< when the parts other than the program need it
   bool restart_requested_ = false;
   Line* report_line_ = nullptr;  ///< where command 138 came from, while a move is under way whose end is to be reported
 };

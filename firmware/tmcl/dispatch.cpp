@@ -11,6 +11,7 @@ namespace {
 struct Binding {
   Opcode opcode;
   DispatchEntry::Handler handler;
+  Reach reach = Reach::module;
 };
 
 constexpr Binding bindings[] = {
@@ -29,12 +30,12 @@ constexpr Binding bindings[] = {
     {Opcode::rfs, Handlers::reference_search},
     {Opcode::sio, Handlers::set_output},
     {Opcode::gio, Handlers::get_input},
-    {Opcode::calc, Handlers::calculate_accumulator},
-    {Opcode::comp, Handlers::compare},
-    {Opcode::jc, Handlers::jump_conditional},
-    {Opcode::ja, Handlers::jump},
-    {Opcode::csub, Handlers::call},
-    {Opcode::rsub, Handlers::return_from_subroutine},
+    {Opcode::calc, Handlers::calculate_accumulator, Reach::program},
+    {Opcode::comp, Handlers::compare, Reach::program},
+    {Opcode::jc, Handlers::jump_conditional, Reach::program},
+    {Opcode::ja, Handlers::jump, Reach::program},
+    {Opcode::csub, Handlers::call, Reach::program},
+    {Opcode::rsub, Handlers::return_from_subroutine, Reach::program},
     {Opcode::ei, Handlers::enable_interrupt},
     {Opcode::di, Handlers::disable_interrupt},
     {Opcode::wait, Handlers::wait},
@@ -42,36 +43,36 @@ constexpr Binding bindings[] = {
     {Opcode::sco, Handlers::set_coordinate},
     {Opcode::gco, Handlers::get_coordinate},
     {Opcode::cco, Handlers::capture_coordinate},
-    {Opcode::calcx, Handlers::calculate_x},
+    {Opcode::calcx, Handlers::calculate_x, Reach::program},
     {Opcode::aap, Handlers::accumulator_to_axis_parameter},
     {Opcode::agp, Handlers::accumulator_to_global_parameter},
-    {Opcode::cle, Handlers::clear_error_flags},
+    {Opcode::cle, Handlers::clear_error_flags, Reach::program},
     {Opcode::vect, Handlers::set_interrupt_vector},
     {Opcode::reti, Handlers::return_from_interrupt},
     {Opcode::aco, Handlers::accumulator_to_coordinate},
-    {Opcode::calcvv, Handlers::variable_with_variable},
-    {Opcode::calcva, Handlers::variable_with_accumulator},
-    {Opcode::calcav, Handlers::accumulator_with_variable},
-    {Opcode::calcvx, Handlers::variable_with_x},
-    {Opcode::calcxv, Handlers::x_with_variable},
-    {Opcode::calcv, Handlers::variable_with_value},
+    {Opcode::calcvv, Handlers::variable_with_variable, Reach::program},
+    {Opcode::calcva, Handlers::variable_with_accumulator, Reach::program},
+    {Opcode::calcav, Handlers::accumulator_with_variable, Reach::program},
+    {Opcode::calcvx, Handlers::variable_with_x, Reach::program},
+    {Opcode::calcxv, Handlers::x_with_variable, Reach::program},
+    {Opcode::calcv, Handlers::variable_with_value, Reach::program},
     {Opcode::mvpa, Handlers::move_to_accumulator},
     {Opcode::rst, Handlers::restart},
-    {Opcode::djnz, Handlers::decrement_and_jump},
+    {Opcode::djnz, Handlers::decrement_and_jump, Reach::program},
     {Opcode::rola, Handlers::rotate_left_accumulator},
     {Opcode::rora, Handlers::rotate_right_accumulator},
-    {Opcode::siv, Handlers::set_indexed_variable},
+    {Opcode::siv, Handlers::set_indexed_variable, Reach::program},
     {Opcode::giv, Handlers::get_indexed_variable},
-    {Opcode::aiv, Handlers::accumulator_to_indexed_variable},
-    {Opcode::uf0, Handlers::no_user_function},
-    {Opcode::uf1, Handlers::no_user_function},
-    {Opcode::uf2, Handlers::no_user_function},
-    {Opcode::uf3, Handlers::no_user_function},
-    {Opcode::uf4, Handlers::no_user_function},
-    {Opcode::uf5, Handlers::no_user_function},
-    {Opcode::uf6, Handlers::no_user_function},
-    {Opcode::uf7, Handlers::no_user_function},
-    {Opcode::call, Handlers::call_conditional},
+    {Opcode::aiv, Handlers::accumulator_to_indexed_variable, Reach::program},
+    {Opcode::uf0, Handlers::invalid_command},
+    {Opcode::uf1, Handlers::invalid_command},
+    {Opcode::uf2, Handlers::invalid_command},
+    {Opcode::uf3, Handlers::invalid_command},
+    {Opcode::uf4, Handlers::invalid_command},
+    {Opcode::uf5, Handlers::invalid_command},
+    {Opcode::uf6, Handlers::invalid_command},
+    {Opcode::uf7, Handlers::invalid_command},
+    {Opcode::call, Handlers::call_conditional, Reach::program},
     {Opcode::stop_application, Handlers::stop_application},
     {Opcode::run_application, Handlers::run_application},
     {Opcode::step_application, Handlers::step_application},
@@ -93,12 +94,12 @@ static_assert(sizeof bindings / sizeof bindings[0] == instruction_count);
 constexpr std::uint8_t any = 255;
 
 consteval DispatchEntry refusing_entry() {
-  return {nullptr, 0, 0, Status::invalid_command, Status::invalid_command, any, false, any, -1};
+  return {nullptr, 0, 0, Status::invalid_command, Status::invalid_command, any, false, any, -1, Reach::module};
 }
 
-consteval DispatchEntry entry_of(const InstructionSpec& spec, const ModuleDescription& module,
-                                 DispatchEntry::Handler handler) {
-  DispatchEntry entry{handler, int32_minimum, ~std::uint32_t{0}, Status::ok, Status::ok, any, false, any, -1};
+consteval DispatchEntry entry_of(const InstructionSpec& spec, const ModuleDescription& module, const Binding& binding) {
+  DispatchEntry entry{binding.handler, int32_minimum, ~std::uint32_t{0}, Status::ok, Status::ok, any, false, any, -1,
+                      binding.reach};
   if (spec.where == Where::program_only) entry.in_direct_mode = Status::command_not_available;
   if (spec.where == Where::direct_only) entry.in_program = Status::command_not_available;
   for (const OperandSpec& operand : spec.operands) {
@@ -116,6 +117,10 @@ consteval DispatchEntry entry_of(const InstructionSpec& spec, const ModuleDescri
       case Field::value:
         entry.minimum_value = operand.minimum;
         entry.value_range = static_cast<std::uint32_t>(operand.maximum) - static_cast<std::uint32_t>(operand.minimum);
+        // Jumps find their targets checked. Control commands and VECT have something to say first.
+        if (operand.kind == OperandKind::address && spec.where == Where::program_only) {
+          entry.value_range = module.program_capacity - 1U;
+        }
         break;
       case Field::none:
         break;
@@ -134,7 +139,7 @@ consteval DispatchTable make_dispatch_table(const ModuleDescription& module) {
       table.entries[row] = refusing_entry();
       continue;
     }
-    table.entries[row] = entry_of(instructions[row], module, binding.handler);
+    table.entries[row] = entry_of(instructions[row], module, binding);
     table.by_opcode[static_cast<std::uint8_t>(binding.opcode)] = static_cast<std::uint8_t>(row);
   }
   return table;
@@ -151,8 +156,29 @@ consteval bool every_row_has_a_handler() {
 }
 static_assert(every_row_has_a_handler());
 
+/// The handler that answers `status`.
+DispatchEntry::Handler handler_refusing(Status status) {
+  switch (status) {
+    case Status::wrong_type:
+      return Handlers::wrong_type;
+    case Status::invalid_value:
+      return Handlers::invalid_value;
+    case Status::command_not_available:
+      return Handlers::not_available;
+    default:
+      return Handlers::invalid_command;
+  }
+}
+
 }  // namespace
 
 constexpr DispatchTable dispatch_tables[module_count] = {make_dispatch_table(tmcm1110), make_dispatch_table(pd1161)};
+
+DecodedInstruction decode(const DispatchTable& table, const Command& command, Reach& reach) {
+  const DispatchEntry& entry = table[command.opcode];
+  const Status status = entry.in_program != Status::ok ? entry.in_program : entry.check_fields(command);
+  reach = status == Status::ok ? entry.reach : Reach::module;
+  return {status == Status::ok ? entry.handler : handler_refusing(status), command};
+}
 
 }  // namespace opentmcl

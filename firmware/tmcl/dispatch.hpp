@@ -8,12 +8,12 @@
 
 #include "firmware/spec/instructions.hpp"
 #include "firmware/spec/lookup.hpp"
+#include "firmware/tmcl/outcome.hpp"
 #include "firmware/wire/datagram.hpp"
 
 namespace opentmcl {
 
 class Executor;
-struct Outcome;
 
 inline constexpr RowIndex instruction_rows =
     make_row_index(instructions, [](const InstructionSpec& row) { return row.opcode; });
@@ -24,6 +24,12 @@ constexpr std::size_t row_of(Opcode opcode) {
 
 /// Motor byte of instructions that work on all motors or on the EEPROM copy (SCO, GCO).
 inline constexpr std::uint8_t all_motors = 255;
+
+/// What an instruction can change.
+enum class Reach : std::uint8_t {
+  module,   ///< anything
+  program,  ///< registers, user variables and the flow of the program; and it cannot fail once its fields are right
+};
 
 struct DispatchEntry {
   using Handler = Outcome (*)(Executor&, const Command&);
@@ -37,6 +43,7 @@ struct DispatchEntry {
   bool takes_all_motors;
   std::uint8_t maximum_type;
   std::int16_t excluded_type;  ///< a type within the range that does not exist, or -1
+  Reach reach;
 
   constexpr Status check_fields(const Command& command) const {
     if (command.motor > maximum_motor && !(takes_all_motors && command.motor == all_motors)) {
@@ -59,5 +66,14 @@ struct DispatchTable {
 };
 
 extern const DispatchTable dispatch_tables[module_count];
+
+/// An instruction of a program: looked up and checked, ready to be executed as often as wanted.
+struct DecodedInstruction {
+  DispatchEntry::Handler handler;  ///< of the instruction, or one that refuses it
+  Command command;
+};
+
+/// @param reach of the instruction; that of a refused one is Reach::module
+DecodedInstruction decode(const DispatchTable& table, const Command& command, Reach& reach);
 
 }  // namespace opentmcl

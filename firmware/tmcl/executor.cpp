@@ -20,21 +20,15 @@ namespace {
 
 }  // namespace
 
-/// What both ways of execution share; `permission` is ok or why the instruction may not be used on this one.
-inline Outcome Executor::execute(const Command& command, const DispatchEntry& entry, Status permission, Source source,
-                                 Microseconds now) {
-  if (permission != Status::ok) return refused(permission, command);
-  const Status status = entry.check_fields(command);
-  if (status != Status::ok) return refused(status, command);
-  source_ = source;
-  now_ = now;
-  return entry.handler(*this, command);
-}
-
 Outcome Executor::execute_direct(const Command& command, Microseconds now) {
   if (download_mode_ && !is_control_command(command.opcode)) return store_in_program(command);
   const DispatchEntry& entry = dispatch_[command.opcode];
-  return execute(command, entry, entry.in_direct_mode, Source::direct, now);
+  if (entry.in_direct_mode != Status::ok) return refused(entry.in_direct_mode, command);
+  const Status status = entry.check_fields(command);
+  if (status != Status::ok) return refused(status, command);
+  source_ = Source::direct;
+  now_ = now;
+  return entry.handler(*this, command);
 }
 
 Outcome Executor::store_in_program(const Command& command) {
@@ -102,6 +96,7 @@ InterruptController::Lines Executor::interrupt_lines() {
   return lines;
 }
 
+/// @return when the next turn is needed
 Microseconds Executor::run_program(Microseconds now) {
   ProgramMachine& machine = parts_.machine;
 
@@ -111,18 +106,20 @@ Microseconds Executor::run_program(Microseconds now) {
     if (!machine.is_in_interrupt() && machine.interrupts.take(vector)) machine.enter_interrupt(vector);
   }
 
-  Command instruction;
   if (machine.program_counter() >= parts_.memory.capacity()) {
     machine.stop();
     return never;
   }
-  if (parts_.memory.read(machine.program_counter(), instruction) == ProgramMemory::Access::busy) {
+  const DecodedInstruction* const instruction = parts_.memory.fetch(machine.program_counter());
+  if (instruction == nullptr) return now + ParameterStore::poll_period;
+  machine.begin_instruction();
+  source_ = Source::program;
+  now_ = now;
+  const Outcome outcome = instruction->handler(*this, instruction->command);
+  if (outcome.form == Outcome::Form::busy) {
+    machine.hold();
     return now + ParameterStore::poll_period;
   }
-  machine.begin_instruction();
-  const DispatchEntry& entry = dispatch_[instruction.opcode];
-  const Outcome outcome = execute(instruction, entry, entry.in_program, Source::program, now);
-  if (outcome.form == Outcome::Form::busy) return now + ParameterStore::poll_period;
   if (outcome.form == Outcome::Form::result && outcome.status == Status::ok) {
     machine.registers.accumulator = outcome.value;
     machine.registers.set_comparison(outcome.value, 0);
@@ -134,10 +131,10 @@ Microseconds Executor::run_program(Microseconds now) {
     machine.stop();
   }
   machine.finish_instruction();
-  return next_turn(now);
+  return turn_behind_instruction(now);
 }
 
-Microseconds Executor::next_turn(Microseconds now) const {
+Microseconds Executor::turn_behind_instruction(Microseconds now) const {
   const ProgramMachine& machine = parts_.machine;
   if (!machine.is_running()) return never;
   if (!machine.is_waiting()) return now;

@@ -8,29 +8,11 @@
 #include "firmware/param/global_parameter_access.hpp"
 #include "firmware/spec/instructions.hpp"
 #include "firmware/tmcl/dispatch.hpp"
+#include "firmware/tmcl/outcome.hpp"
 #include "firmware/tmcl/program_machine.hpp"
 #include "firmware/tmcl/program_memory.hpp"
 
 namespace opentmcl {
-
-/// What an instruction came to.
-struct Outcome {
-  enum class Form : std::uint8_t {
-    normal,   ///< status and value
-    result,   ///< likewise, and in a program the value goes to the accumulator and sets the flags
-    special,  ///< eight bytes of its own follow the host address: see Executor::special_reply()
-    silent,   ///< never answered
-    busy,     ///< nothing was done yet: try again on the next turn
-  };
-
-  constexpr Outcome(Status the_status, std::int32_t the_value, Form the_form)
-      : value(the_value), status(the_status), form(the_form) {}
-
-  // The largest first: eight bytes together, which handlers return in registers.
-  std::int32_t value;
-  Status status;
-  Form form;
-};
 
 /// Executes instructions, those of the host and those of the program by the same handlers. Only the context differs:
 /// in a program, instructions that read set the accumulator and the flags.
@@ -56,8 +38,25 @@ class Executor {
   /// One command of a host. In download mode it is stored instead, control commands excepted.
   Outcome execute_direct(const Command& command, Microseconds now);
 
-  /// One turn of the program: at most one instruction. @return when the next turn is needed
-  Microseconds poll(Microseconds now) { return parts_.machine.is_running() ? run_program(now) : never; }
+  /// A short turn of the program: executes its next instruction if that has Reach::program and was executed before, so
+  /// that it needs neither the EEPROM nor the time, and no other part has to look at its effect.
+  /// @return false when there is no such instruction, and poll() has to look
+  bool calculate() {
+    ProgramMachine& machine = parts_.machine;
+    if (!machine.runs_undisturbed()) return false;
+    const DecodedInstruction* const instruction = parts_.memory.fetch_contained(machine.program_counter());
+    if (instruction == nullptr) return false;
+    machine.begin_instruction();
+    instruction->handler(*this, instruction->command);
+    return true;
+  }
+
+  /// One turn of the program: at most one instruction.
+  void poll(Microseconds now) {
+    if (parts_.machine.is_running()) next_turn_ = run_program(now);
+  }
+  /// When a running program needs the next turn, as poll() found.
+  Microseconds next_turn() const { return next_turn_; }
 
   /// The eight bytes behind the host address after an outcome with Form::special.
   const std::uint8_t* special_reply() const { return special_reply_; }
@@ -91,18 +90,17 @@ class Executor {
 
   enum class Source : std::uint8_t { direct, program };
 
-  Outcome execute(const Command& command, const DispatchEntry& entry, Status permission, Source source,
-                  Microseconds now);
   Microseconds run_program(Microseconds now);
   bool is_report_wanted();
   [[gnu::noinline]] Outcome store_in_program(const Command& command);
   InterruptController::Lines interrupt_lines();
-  Microseconds next_turn(Microseconds now) const;
+  Microseconds turn_behind_instruction(Microseconds now) const;
 
   Parts parts_;
   const DispatchTable& dispatch_;
   Source source_ = Source::direct;
   Microseconds now_ = 0;
+  Microseconds next_turn_ = never;
   std::uint32_t outputs_ = 0;
   Microseconds tick_timer_zero_ = 0;  ///< when the tick timer read 0
   std::uint32_t random_state_ = 1;

@@ -82,10 +82,12 @@ struct Handlers {
   static Outcome request_position_reached(Executor& executor, const Command& command);
   static Outcome software_reset(Executor& executor, const Command& command);
 
+  // Refusals, for what is known without looking at the state of the module: handlers_control.cpp
+  static Outcome invalid_command(Executor& executor, const Command& command);
+  static Outcome wrong_type(Executor& executor, const Command& command);
+  static Outcome invalid_value(Executor& executor, const Command& command);
   /// Exists, but not in the present state of the module.
   static Outcome not_available(Executor& executor, const Command& command);
-  /// User functions: a board without extensions has none.
-  static Outcome no_user_function(Executor& executor, const Command& command);
 
  private:
   // What several handlers share. Private members of the executor are reachable here and nowhere else.

@@ -167,12 +167,20 @@ Outcome Handlers::software_reset(Executor& executor, const Command& command) {
   return done(command);
 }
 
-Outcome Handlers::not_available(Executor&, const Command& command) {
-  return with_status(Status::command_not_available, command);
+Outcome Handlers::invalid_command(Executor&, const Command& command) {
+  return with_status(Status::invalid_command, command);
 }
 
-Outcome Handlers::no_user_function(Executor&, const Command& command) {
-  return with_status(Status::invalid_command, command);
+Outcome Handlers::wrong_type(Executor&, const Command& command) {
+  return with_status(Status::wrong_type, command);
+}
+
+Outcome Handlers::invalid_value(Executor&, const Command& command) {
+  return with_status(Status::invalid_value, command);
+}
+
+Outcome Handlers::not_available(Executor&, const Command& command) {
+  return with_status(Status::command_not_available, command);
 }
 
 }  // namespace opentmcl

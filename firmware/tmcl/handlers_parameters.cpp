@@ -140,7 +140,8 @@ Outcome Handlers::get_global_parameter(Executor& executor, const Command& comman
       outcome.value = executor.download_mode_ ? 1 : 0;
       break;
     case GlobalParameter::program_counter:
-      outcome.value = machine.program_counter();
+      // A program that asks finds the address of the instruction that asks.
+      outcome.value = machine.program_counter() - (executor.source_ == Executor::Source::program ? 1 : 0);
       break;
     case GlobalParameter::tick_timer: {
       const Microseconds elapsed = executor.now_ - executor.tick_timer_zero_;

@@ -4,18 +4,19 @@ namespace opentmcl {
 
 namespace {
 
-/// Type byte of JC and CALL; the words are in `condition_words`.
-enum class Condition : std::uint8_t {
-  zero = 0,
-  not_zero = 1,
-  equal = 2,
-  not_equal = 3,
-  greater = 4,
-  greater_or_equal = 5,
-  lower = 6,
-  lower_or_equal = 7,
-  timeout = 8,  ///< the error flags follow, in the order of ErrorFlag
+/// Conditions of JC and CALL on the last comparison, in the order of `condition_words`: what it may have come to. The
+/// error flags follow, in the order of ErrorFlag.
+constexpr std::uint8_t conditions[] = {
+    Registers::equal,                       // ZE
+    Registers::lower | Registers::greater,  // NZ
+    Registers::equal,                       // EQ
+    Registers::lower | Registers::greater,  // NE
+    Registers::greater,                     // GT
+    Registers::greater | Registers::equal,  // GE
+    Registers::lower,                       // LT
+    Registers::lower | Registers::equal,    // LE
 };
+constexpr std::uint8_t first_error_condition = sizeof conditions;
 
 enum class WaitEvent : std::uint8_t {
   ticks = 0,
@@ -71,24 +72,8 @@ Outcome Handlers::compare(Executor& executor, const Command& command) {
 }
 
 bool Handlers::condition_holds(const Registers& r, std::uint8_t condition) {
-  switch (static_cast<Condition>(condition)) {
-    case Condition::zero:
-    case Condition::equal:
-      return r.comparison == 0;
-    case Condition::not_zero:
-    case Condition::not_equal:
-      return r.comparison != 0;
-    case Condition::greater:
-      return r.comparison > 0;
-    case Condition::greater_or_equal:
-      return r.comparison >= 0;
-    case Condition::lower:
-      return r.comparison < 0;
-    case Condition::lower_or_equal:
-      return r.comparison <= 0;
-    default:
-      return (r.error_flags >> (condition - static_cast<unsigned>(Condition::timeout)) & 1) != 0;
-  }
+  if (condition < first_error_condition) return (r.comparison & conditions[condition]) != 0;
+  return (r.error_flags >> (condition - first_error_condition) & 1) != 0;
 }
 
 bool Handlers::is_jump_target(Executor& executor, std::int32_t address) {
@@ -96,7 +81,6 @@ bool Handlers::is_jump_target(Executor& executor, std::int32_t address) {
 }
 
 Outcome Handlers::jump(Executor& executor, const Command& command) {
-  if (!is_jump_target(executor, command.value)) return with_status(Status::invalid_value, command);
   parts(executor).machine.jump(static_cast<std::uint16_t>(command.value));
   return done(command);
 }
@@ -106,7 +90,6 @@ Outcome Handlers::jump_conditional(Executor& executor, const Command& command) {
 }
 
 Outcome Handlers::call(Executor& executor, const Command& command) {
-  if (!is_jump_target(executor, command.value)) return with_status(Status::invalid_value, command);
   parts(executor).machine.call(static_cast<std::uint16_t>(command.value));
   return done(command);
 }
@@ -178,7 +161,6 @@ Outcome Handlers::clear_error_flags(Executor& executor, const Command& command) 
 }
 
 Outcome Handlers::restart(Executor& executor, const Command& command) {
-  if (!is_jump_target(executor, command.value)) return with_status(Status::invalid_value, command);
   ProgramMachine& machine = parts(executor).machine;
   const bool is_single_step = machine.mode() == ProgramMachine::Mode::step;
   machine.reset();

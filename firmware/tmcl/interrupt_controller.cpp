@@ -9,9 +9,24 @@ constexpr std::int32_t falling = 2;
 
 }  // namespace
 
+void InterruptController::enable(std::size_t row) {
+  enabled_ |= bit(row);
+  update_active();
+}
+
+void InterruptController::disable(std::size_t row) {
+  enabled_ &= ~bit(row);
+  update_active();
+}
+
 void InterruptController::set_vector(std::size_t row, std::uint16_t address) {
   vectors_[row] = address;
   defined_ |= bit(row);
+  update_active();
+}
+
+void InterruptController::update_active() {
+  active_ = is_enabled(row_of(Interrupt::global)) && (enabled_ & defined_) != 0;
 }
 
 void InterruptController::observe_timer(std::size_t row, Microseconds now, Microseconds period) {

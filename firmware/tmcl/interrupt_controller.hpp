@@ -19,13 +19,13 @@ class InterruptController {
   static constexpr Lines bit(std::size_t row) { return Lines{1} << row; }
 
   /// @param row of the interrupt table; that of Interrupt::global switches the processing as a whole
-  void enable(std::size_t row) { enabled_ |= bit(row); }
-  void disable(std::size_t row) { enabled_ &= ~bit(row); }
+  void enable(std::size_t row);
+  void disable(std::size_t row);
   void set_vector(std::size_t row, std::uint16_t address);
 
   bool is_enabled(std::size_t row) const { return (enabled_ & bit(row)) != 0; }
   /// Some interrupt can happen at all.
-  bool is_active() const { return is_enabled(row_of(Interrupt::global)) && (enabled_ & defined_) != 0; }
+  bool is_active() const { return active_; }
 
   /// Notes edges of `lines` and timers that ran out since the last look. What is not enabled when it happens is lost.
   void observe(Microseconds now, Lines lines, const GlobalParameterAccess& settings);
@@ -41,6 +41,7 @@ class InterruptController {
   bool take(std::uint16_t& vector);
 
  private:
+  void update_active();
   void observe_timer(std::size_t row, Microseconds now, Microseconds period);
 
   static constexpr std::size_t timer_count = 3;
@@ -50,6 +51,7 @@ class InterruptController {
   Lines defined_ = 0;  ///< has a vector
   Lines pending_ = 0;
   Lines last_lines_ = 0;
+  bool active_ = false;
   bool has_looked_ = false;
   std::uint16_t vectors_[interrupt_count] = {};
   Microseconds timer_due_[timer_count] = {never, never, never};

@@ -17,18 +17,9 @@ void ProgramMachine::reset() {
   in_interrupt_ = false;
 }
 
-void ProgramMachine::finish_instruction() {
-  program_counter_ = next_address_;
-  if (mode_ == Mode::step) mode_ = Mode::stop;
-}
-
-void ProgramMachine::jump(std::uint16_t address) {
-  next_address_ = address;
-}
-
 void ProgramMachine::call(std::uint16_t address) {
   if (depth_ == stack_size) return;
-  stack_[depth_++] = static_cast<std::uint16_t>(program_counter_ + 1);
+  stack_[depth_++] = program_counter_;
   jump(address);
 }
 

@@ -14,11 +14,16 @@ enum class ErrorFlag : std::uint8_t { timeout = 1, external_alarm = 2, deviation
 struct Registers {
   std::int32_t accumulator = 0;
   std::int32_t x = 0;
-  std::int8_t comparison = 0;    ///< sign of the last comparison or value read: -1, 0 or 1
-  std::uint8_t error_flags = 0;  ///< ErrorFlag bits
+  std::uint8_t comparison = equal;  ///< of the last comparison, or of the last value read with 0
+  std::uint8_t error_flags = 0;     ///< ErrorFlag bits
+
+  // What a comparison can come to, as bits: a condition is a set of them.
+  static constexpr std::uint8_t lower = 1;
+  static constexpr std::uint8_t equal = 2;
+  static constexpr std::uint8_t greater = 4;
 
   void set_comparison(std::int32_t left, std::int32_t right) {
-    comparison = static_cast<std::int8_t>(left < right ? -1 : left > right ? 1 : 0);
+    comparison = left < right ? lower : left == right ? equal : greater;
   }
 };
 
@@ -35,6 +40,9 @@ class ProgramMachine {
 
   Mode mode() const { return mode_; }
   bool is_running() const { return mode_ == Mode::run || mode_ == Mode::step; }
+  /// Runs, and nothing can come between two instructions: neither an interrupt nor the end of a single step.
+  bool runs_undisturbed() const { return mode_ == Mode::run && !interrupts.is_active(); }
+  /// Of the instruction to be executed next.
   std::uint16_t program_counter() const { return program_counter_; }
   bool is_waiting() const { return waiting_; }
 
@@ -49,17 +57,19 @@ class ProgramMachine {
   void reset();
 
   /// An instruction is about to be executed: unless it says otherwise the one behind it comes next.
-  void begin_instruction() { next_address_ = static_cast<std::uint16_t>(program_counter_ + 1); }
-  /// It was executed: on to the next address.
-  void finish_instruction();
+  void begin_instruction() { ++program_counter_; }
+  /// It was executed: a single step is over.
+  void finish_instruction() {
+    if (mode_ == Mode::step) mode_ = Mode::stop;
+  }
 
-  void jump(std::uint16_t address);
+  void jump(std::uint16_t address) { program_counter_ = address; }
   /// Ignored when the stack is full.
   void call(std::uint16_t address);
   /// Ignored when the stack is empty.
   void return_from_subroutine();
-  /// Stays at the present instruction, which waits for something.
-  void hold() { next_address_ = program_counter_; }
+  /// Stays at the instruction that is being executed, to execute it again.
+  void hold() { --program_counter_; }
 
   /// Enters an interrupt routine; the context is kept until return_from_interrupt().
   void enter_interrupt(std::uint16_t vector);
@@ -85,7 +95,6 @@ class ProgramMachine {
 
   Mode mode_ = Mode::stop;
   std::uint16_t program_counter_ = 0;
-  std::uint16_t next_address_ = 0;
   std::uint16_t stack_[stack_size] = {};
   std::uint8_t depth_ = 0;
   bool waiting_ = false;

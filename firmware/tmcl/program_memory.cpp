@@ -51,6 +51,7 @@ bool ProgramMemory::flush_page() {
 
 void ProgramMemory::erase() {
   begin_download();
+  cache_.clear();
   erase_page_ = layout::program_address;
 }
 
@@ -71,6 +72,7 @@ ProgramMemory::Access ProgramMemory::write(std::uint16_t address, const Command&
   }
   if (pending_ != 0 && pending_ >= room_in_page(pending_address_) && !flush_page()) return Access::busy;
   if (pending_ == 0) pending_address_ = start;
+  cache_.forget(address);
   pack(instruction, buffer_ + pending_);
   pending_ = static_cast<std::uint8_t>(pending_ + layout::instruction_size);
   return Access::done;
@@ -95,6 +97,14 @@ ProgramMemory::Access ProgramMemory::read(std::uint16_t address, Command& instru
   }
   instruction = unpack(bytes);
   return Access::done;
+}
+
+const DecodedInstruction* ProgramMemory::fetch_from_eeprom(std::uint16_t address) {
+  Command instruction;
+  if (read(address, instruction) == Access::busy) return nullptr;
+  Reach reach{};
+  const DecodedInstruction decoded = decode(dispatch_, instruction, reach);
+  return cache_.insert(address, decoded, reach);
 }
 
 }  // namespace opentmcl

@@ -6,6 +6,9 @@
 #include "firmware/hal/eeprom.hpp"
 #include "firmware/param/eeprom_layout.hpp"
 #include "firmware/param/parameter_store.hpp"
+#include "firmware/spec/modules.hpp"
+#include "firmware/tmcl/dispatch.hpp"
+#include "firmware/tmcl/instruction_cache.hpp"
 #include "firmware/wire/datagram.hpp"
 
 namespace opentmcl {
@@ -20,8 +23,11 @@ class ProgramMemory {
     busy,  ///< a page write is in progress: try again on the next turn
   };
 
-  ProgramMemory(hal::Eeprom& eeprom, ParameterStore& store, std::uint16_t capacity)
-      : eeprom_(eeprom), store_(store), capacity_(capacity) {}
+  ProgramMemory(hal::Eeprom& eeprom, ParameterStore& store, const ModuleDescription& module)
+      : eeprom_(eeprom),
+        store_(store),
+        dispatch_(dispatch_tables[static_cast<std::size_t>(module.id)]),
+        capacity_(module.program_capacity) {}
 
   std::uint16_t capacity() const { return capacity_; }
 
@@ -47,14 +53,25 @@ class ProgramMemory {
   /// @param address less than capacity()
   Access read(std::uint16_t address, Command& instruction);
 
+  /// The instruction at an address, to be executed. @param address less than capacity()
+  /// @return valid until the next call, or nullptr when it is not in the cache and the EEPROM is busy
+  const DecodedInstruction* fetch(std::uint16_t address) {
+    const DecodedInstruction* const cached = cache_.find(address);
+    return cached != nullptr ? cached : fetch_from_eeprom(address);
+  }
+  /// The same for an instruction that is in the cache and has Reach::program; nullptr for all others.
+  const DecodedInstruction* fetch_contained(std::uint16_t address) const { return cache_.find_contained(address); }
+
  private:
   enum State : std::int32_t { incomplete = 0, complete = 1 };
 
   Microseconds erase_next(Microseconds now);
   bool flush_page();
+  const DecodedInstruction* fetch_from_eeprom(std::uint16_t address);
 
   hal::Eeprom& eeprom_;
   ParameterStore& store_;
+  const DispatchTable& dispatch_;
   std::uint16_t capacity_;
   /// Bytes that are not written yet: `pending_` of them, from EEPROM address `pending_address_` on. They may run over
   /// the end of their page by less than an instruction.
@@ -62,6 +79,7 @@ class ProgramMemory {
   std::uint16_t pending_address_ = 0;
   std::uint8_t pending_ = 0;
   std::uint16_t erase_page_ = 0;  ///< EEPROM address of the next page to erase, 0 when not erasing
+  InstructionCache cache_;
 };
 
 }  // namespace opentmcl

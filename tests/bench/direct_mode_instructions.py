@@ -15,50 +15,23 @@ import collections
 import concurrent.futures
 import os
 import pathlib
-import re
 import subprocess
 import sys
-import tempfile
 
-REPETITIONS = 1000  # as many digits as twice as many, so that both runs start alike
+import callgrind
+
 FEEDS = {"handle": "whole datagram", "whole": "from the port", "bytes": "byte by byte"}
 CHIPS = {"registers": "chips as register files", "models": "chip models"}
 NOTHING = "none"  # behind the port: the cost of loop and port
 MIX = "mix"
-EXIT_ABOVE_LIMIT = 1
-EXIT_USAGE = 64
-EXIT_INTERNAL = 70
 
 Measurement = collections.namedtuple("Measurement", "chips feed command")
 
 
-class MeasurementError(Exception):
-    """A run that does not give a figure."""
-
-
-def instructions_of_run(program, measurement, repetitions):
-    """All instructions of one run."""
-    with tempfile.TemporaryDirectory() as folder:
-        profile = pathlib.Path(folder) / "profile"
-        job = [measurement.feed, measurement.chips, str(measurement.command), str(repetitions)]
-        command = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={profile}", str(program), *job]
-        run = subprocess.run(command, capture_output=True, text=True, check=False)
-        if run.returncode != 0:
-            raise MeasurementError(f"{' '.join(command)}: exit code {run.returncode}\n{run.stderr}")
-        total = re.search(r"^(?:summary|totals): (\d+)$", profile.read_text(), re.MULTILINE)
-        if total is None:
-            raise MeasurementError(f"{' '.join(command)}: the profile has no sum")
-        return int(total[1])
-
-
 def instructions_per_command(program, measurement, command_count):
     """Mean over the commands of the measurement: one, or all of the mix."""
-    once = instructions_of_run(program, measurement, REPETITIONS)
-    twice = instructions_of_run(program, measurement, 2 * REPETITIONS)
-    if twice <= once:
-        raise MeasurementError(f"{measurement}: {2 * REPETITIONS} repetitions took no more than {REPETITIONS}")
-    sent = command_count if measurement.command == MIX else 1
-    return (twice - once) / (REPETITIONS * sent)
+    command = [program, measurement.feed, measurement.chips, measurement.command]
+    return callgrind.instructions_per_repetition(command) / (command_count if measurement.command == MIX else 1)
 
 
 def print_table(chips, names, rows, counts):
@@ -72,29 +45,12 @@ def print_table(chips, names, rows, counts):
     print(f"{'subtracted':20}" + "".join(f"{value:16.1f}" for value in own))
 
 
-def parse_limit(text):
-    """FEED=MEAN as a pair."""
-    feed, _, mean = text.partition("=")
-    if feed not in FEEDS:
-        raise argparse.ArgumentTypeError(f"{feed!r} is none of {', '.join(FEEDS)}")
-    try:
-        return feed, float(mean)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{mean!r} is no number") from None
-
-
-class Parser(argparse.ArgumentParser):
-    def error(self, message):
-        self.print_usage(sys.stderr)
-        self.exit(EXIT_USAGE, f"{self.prog}: {message}\n")
-
-
 def parse_arguments():
-    parser = Parser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = callgrind.Parser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", default="build/benchmark", metavar="FOLDER", help="default: %(default)s")
     parser.add_argument(
         "--limit",
-        type=parse_limit,
+        type=callgrind.limit_parser(FEEDS),
         action="append",
         default=[],
         metavar="FEED=MEAN",
@@ -127,9 +83,9 @@ def main():
         rows = [MIX] if arguments.mix_only else [*range(len(names)), MIX]
         chips_wanted = list(CHIPS) if arguments.models else ["registers"]
         counts = measure(program, names, chips_wanted, rows)
-    except (OSError, subprocess.CalledProcessError, MeasurementError) as error:
+    except (OSError, subprocess.CalledProcessError, callgrind.MeasurementError) as error:
         print(error, file=sys.stderr)
-        return EXIT_INTERNAL
+        return callgrind.EXIT_INTERNAL
 
     for chips in chips_wanted:
         print_table(chips, names, rows, counts)
@@ -138,7 +94,7 @@ def main():
         mean = counts[Measurement("registers", feed, MIX)]
         if mean > limit:
             print(f"{FEEDS[feed]}: {mean:.1f} instructions are above the limit of {limit:g}", file=sys.stderr)
-            exceeded = EXIT_ABOVE_LIMIT
+            exceeded = callgrind.EXIT_ABOVE_LIMIT
     return exceeded
 
 
