@@ -149,7 +149,8 @@ VirtualModule::VirtualModule(const ModuleDescription& description, std::vector<h
 VirtualModule::~VirtualModule() = default;
 
 void VirtualModule::restart() {
-  module_ = std::make_unique<Module>(description_, board_->hal);
+  const Extensions& extensions = options_.extensions != nullptr ? *options_.extensions : no_extensions;
+  module_ = std::make_unique<Module>(description_, board_->hal, extensions);
   wake();
 }
 

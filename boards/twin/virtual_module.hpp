@@ -11,6 +11,7 @@
 namespace opentmcl {
 
 class Module;
+struct Extensions;
 
 /// A module as on the bench: the firmware on a board whose chips, motor and EEPROM are models. It only knows simulated
 /// time; the same bytes at the same times give the same replies and the same motion.
@@ -20,6 +21,8 @@ class VirtualModule {
     /// Length of a turn of the firmware's main loop while a TMCL program runs: one instruction each. A property of the
     /// microcontroller that nobody has published (docs/decisions/0008-main-loop-turn.md).
     Microseconds turn = 100;
+    /// User functions and bank 1; none if nullptr, else it must outlive the module.
+    const Extensions* extensions = nullptr;
   };
 
   /// @param ports at most 4; what they point to must outlive the module

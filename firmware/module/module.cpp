@@ -2,7 +2,7 @@
 
 namespace opentmcl {
 
-Module::Module(const ModuleDescription& description, const Hal& hal)
+Module::Module(const ModuleDescription& description, const Hal& hal, const Extensions& extensions)
     : description_(description),
       hal_(hal),
       store_(hal.eeprom, description),
@@ -13,7 +13,7 @@ Module::Module(const ModuleDescription& description, const Hal& hal)
       global_parameters_(description, axis_, store_),
       program_memory_(hal.eeprom, store_, description),
       executor_({description, axis_, reference_search_, axis_parameters_, global_parameters_, program_machine_,
-                 program_memory_, store_, hal.pins, hal.analog}) {}
+                 program_memory_, store_, hal.pins, hal.analog, extensions}) {}
 
 /// Brings everything up, as soon as a page write that a restart interrupted is over. @return whether it is done
 bool Module::start(Microseconds now) {

@@ -20,9 +20,9 @@ namespace opentmcl {
 /// One TMCL module: everything above the board. It owns no global state, so as many as wanted live in one process.
 class Module {
  public:
-  /// Does nothing yet: the first poll() brings the chips and the settings up. `hal` and what it refers to must outlive
-  /// the module.
-  Module(const ModuleDescription& description, const Hal& hal);
+  /// Does nothing yet: the first poll() brings the chips and the settings up. `extensions` and all that `hal` refers to
+  /// must outlive the module.
+  Module(const ModuleDescription& description, const Hal& hal, const Extensions& extensions = no_extensions);
 
   Module(const Module&) = delete;
   Module& operator=(const Module&) = delete;

@@ -8,6 +8,7 @@
 #include "firmware/param/global_parameter_access.hpp"
 #include "firmware/spec/instructions.hpp"
 #include "firmware/tmcl/dispatch.hpp"
+#include "firmware/tmcl/extensions.hpp"
 #include "firmware/tmcl/outcome.hpp"
 #include "firmware/tmcl/program_machine.hpp"
 #include "firmware/tmcl/program_memory.hpp"
@@ -30,6 +31,7 @@ class Executor {
     ParameterStore& store;
     hal::Pins& pins;
     hal::Analog& analog;
+    const Extensions& extensions;
   };
 
   explicit Executor(const Parts& parts)

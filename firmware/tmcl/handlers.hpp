@@ -82,6 +82,9 @@ struct Handlers {
   static Outcome request_position_reached(Executor& executor, const Command& command);
   static Outcome software_reset(Executor& executor, const Command& command);
 
+  /// UF0 to UF7: what the board makes of them.
+  static Outcome user_function(Executor& executor, const Command& command);
+
   // Refusals, for what is known without looking at the state of the module: handlers_control.cpp
   static Outcome invalid_command(Executor& executor, const Command& command);
   static Outcome wrong_type(Executor& executor, const Command& command);

@@ -167,6 +167,13 @@ Outcome Handlers::software_reset(Executor& executor, const Command& command) {
   return done(command);
 }
 
+Outcome Handlers::user_function(Executor& executor, const Command& command) {
+  const Extensions& extensions = parts(executor).extensions;
+  const auto number = static_cast<std::size_t>(command.opcode - static_cast<std::uint8_t>(Opcode::uf0));
+  const Extensions::UserFunction function = extensions.user_functions[number];
+  return function != nullptr ? function(extensions.context, command) : invalid_command(executor, command);
+}
+
 Outcome Handlers::invalid_command(Executor&, const Command& command) {
   return with_status(Status::invalid_command, command);
 }

@@ -89,7 +89,11 @@ Outcome Handlers::accumulator_to_axis_parameter(Executor& executor, const Comman
 
 Status Handlers::set_global(Executor& executor, std::uint8_t number, std::uint8_t bank, std::int32_t value) {
   GlobalParameterAccess& globals = parts(executor).global_parameters;
-  if (bank != static_cast<std::uint8_t>(Bank::module_settings)) return globals.set(number, bank, value);
+  if (bank != static_cast<std::uint8_t>(Bank::module_settings)) {
+    const Extensions& extensions = parts(executor).extensions;
+    const bool is_extension = bank == static_cast<std::uint8_t>(Bank::customer) && extensions.set_variable != nullptr;
+    return is_extension ? extensions.set_variable(extensions.context, number, value) : globals.set(number, bank, value);
+  }
   switch (static_cast<GlobalParameter>(number)) {
     case GlobalParameter::tick_timer: {
       const Status status = globals.check(number, Access::w, value);
@@ -129,6 +133,11 @@ Outcome Handlers::accumulator_to_global_parameter(Executor& executor, const Comm
 
 Outcome Handlers::get_global_parameter(Executor& executor, const Command& command) {
   Outcome outcome = result(command.value);
+  const Extensions& extensions = parts(executor).extensions;
+  if (command.motor == static_cast<std::uint8_t>(Bank::customer) && extensions.get_variable != nullptr) {
+    outcome.status = extensions.get_variable(extensions.context, command.type, outcome.value);
+    return outcome;
+  }
   outcome.status = parts(executor).global_parameters.get(command.type, command.motor, outcome.value);
   if (outcome.status != Status::ok || command.motor != static_cast<std::uint8_t>(Bank::module_settings)) return outcome;
   const ProgramMachine& machine = parts(executor).machine;

@@ -59,6 +59,8 @@ RULES = (
     # Where firmware and twin meet: the hal on the models, and a module running on it.
     Rule("boards/twin", ("firmware/hal", "firmware/spec", "firmware/module", "twin"), STANDARD),
     Rule("boards/size_check", ("firmware",), FREESTANDING),
+    # What a board may add to the firmware runs on the same microcontroller; its test uses the bench of the module's.
+    Rule("examples", ("firmware/tmcl", "tests/module/bench.hpp"), FREESTANDING),
     Rule("twin/chip", REGISTER_TABLES, TIMELESS),
     Rule("twin/physics", (), TIMELESS),
     Rule("twin/world", ("twin/chip", "twin/physics"), TIMELESS),

@@ -15,8 +15,9 @@ std::size_t TestPort::read(std::uint8_t* buffer, std::size_t capacity) {
   return count;
 }
 
-Bench::Bench(const ModuleDescription& description, hal::PortKind kind, twin::TraceObserver* observer)
-    : module(description, {{&port, kind}}, {}, observer) {
+Bench::Bench(const ModuleDescription& description, hal::PortKind kind, twin::TraceObserver* observer,
+             VirtualModule::Options options)
+    : module(description, {{&port, kind}}, options, observer) {
   wait(one_millisecond);
 }
 
