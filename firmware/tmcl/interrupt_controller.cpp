@@ -29,6 +29,12 @@ void InterruptController::update_active() {
   active_ = is_enabled(row_of(Interrupt::global)) && (enabled_ & defined_) != 0;
 }
 
+void InterruptController::forget_events() {
+  pending_ = 0;
+  has_looked_ = false;
+  for (Microseconds& due : timer_due_) due = never;
+}
+
 void InterruptController::observe_timer(std::size_t row, Microseconds now, Microseconds period) {
   if (period == 0 || !is_enabled(row)) {
     timer_due_[row] = never;

@@ -27,6 +27,9 @@ class InterruptController {
   /// Some interrupt can happen at all.
   bool is_active() const { return active_; }
 
+  /// Forgets what has happened: a program that starts hears only of what happens from then on.
+  void forget_events();
+
   /// Notes edges of `lines` and timers that ran out since the last look. What is not enabled when it happens is lost.
   void observe(Microseconds now, Lines lines, const GlobalParameterAccess& settings);
 

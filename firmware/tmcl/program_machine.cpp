@@ -3,18 +3,23 @@
 namespace opentmcl {
 
 void ProgramMachine::run_from(std::uint16_t address) {
-  program_counter_ = address;
-  waiting_ = false;
+  close_routines();
+  jump(address);
   run();
+}
+
+void ProgramMachine::close_routines() {
+  depth_ = 0;
+  waiting_ = false;
+  in_interrupt_ = false;
+  interrupts.forget_events();
 }
 
 void ProgramMachine::reset() {
   stop();
   registers = Registers{};
   program_counter_ = 0;
-  depth_ = 0;
-  waiting_ = false;
-  in_interrupt_ = false;
+  close_routines();
 }
 
 void ProgramMachine::call(std::uint16_t address) {

@@ -48,12 +48,15 @@ class ProgramMachine {
 
   /// Continues at the present address.
   void run() { mode_ = Mode::run; }
+  /// Starts anew at an address: no subroutine or interrupt routine is open, and interrupts that happened while no
+  /// program ran are forgotten. The registers stay (docs/decisions/0030-starting-a-program.md).
   void run_from(std::uint16_t address);
   /// Executes one more instruction.
   void step() { mode_ = Mode::step; }
   /// The program counter stays, so that run() continues.
   void stop() { mode_ = Mode::stop; }
-  /// Stops and clears program counter, stack, registers, flags and the interrupt context.
+  /// Stops and clears program counter, stack, registers, flags and the interrupt context. Which interrupts are enabled,
+  /// and their vectors, stay: hosts set them up before they start a program.
   void reset();
 
   /// An instruction is about to be executed: unless it says otherwise the one behind it comes next.
@@ -85,6 +88,8 @@ class ProgramMachine {
   void end_wait() { waiting_ = false; }
 
  private:
+  void close_routines();
+
   struct Context {
     Registers registers;
     std::uint16_t program_counter = 0;
