@@ -120,6 +120,7 @@ TEST(Interrupts, AreTakenInSingleStepsToo) {
 TEST(SingleSteps, StayAtAWaitUntilItIsOver) {
   Bench bench(pd1161);
   bench.download("WAIT TICKS, 0, 5\nSGP 0, 2, 1\n");
+  bench.wait(20 * one_millisecond);  // until the last page is written
   bench.command(Opcode::reset_application);
   constexpr std::int32_t waiting = 1 << 16;
   constexpr std::uint8_t with_program_counter = 1;
