@@ -26,8 +26,12 @@ bool Module::start(Microseconds now) {
       global_parameters[row_of(GlobalParameter::eeprom_magic)].in(ModuleId::tmcm1110).default_value;
   if (has_magic && global_parameters_[GlobalParameter::eeprom_magic] != magic) {
     // Global parameter 64 was changed to ask for this.
-    store_.restore_factory_settings();
-    global_parameters_.restore_defaults();
+    if (global_parameters_.hides_program()) {
+      executor_.restore_factory_settings();
+    } else {
+      store_.restore_factory_settings();
+      global_parameters_.restore_defaults();
+    }
   }
   axis_parameters_.load_stored();
   axis_.initialise(global_parameters_.wiring());
@@ -100,17 +104,21 @@ Microseconds Module::poll_all(Microseconds now) {
   needs(reference_search_.poll(now));
   if (axis_.is_due(now)) watch_axis(now);
   needs(axis_.due());
-  needs(store_.poll(now));
   needs(program_memory_.poll(now));
+  // Nothing that lifts the protection of a program may be written before the program is gone.
+  if (!program_memory_.is_erasing()) needs(store_.poll(now));
   if (report_line_ != nullptr) {
     report_position();
     needs(now + one_millisecond);
   }
   if (executor_.wants_restart()) {
-    if (store_.is_written() && !hal_.eeprom.busy()) {
-      restart_requested_ = true;
-    } else {
+    if (program_memory_.is_erasing() || !store_.is_written() || hal_.eeprom.busy()) {
       needs(now + ParameterStore::poll_period);
+    } else if (executor_.take_factory_reset()) {
+      store_.restore_factory_settings();
+      needs(now);
+    } else {
+      restart_requested_ = true;
     }
   }
   if (!program_machine_.is_running()) {

@@ -45,6 +45,9 @@ class GlobalParameterAccess {
   /// Global parameter 73: nothing may be stored.
   bool is_locked() const { return (*this)[GlobalParameter::eeprom_lock] != 0; }
 
+  /// Global parameter 81: the program may not be read, and is erased before it may.
+  bool hides_program() const { return ((*this)[GlobalParameter::code_protection] & 1) != 0; }
+
   /// Setting of an interrupt (bank 3) by row of the interrupt table.
   std::int32_t interrupt_setting(std::size_t row) const { return interrupt_settings_[row]; }
 

@@ -74,10 +74,13 @@ void ParameterStore::load() {
   dirty_count_ = 0;
   header_dirty_ = false;
   if (!load_header()) {
-    // Records of whatever was here before must not come to life again: take a generation none of them has.
-    std::uint8_t foreign[layout::header_size];
-    eeprom_.read(layout::header_copies[0], foreign, sizeof foreign);
-    generation_ = static_cast<std::uint8_t>(foreign[generation_offset] + 1);
+    // Records of whatever was here before must not come to life again: take a generation that neither header has.
+    std::uint8_t foreign[2];
+    for (unsigned copy = 0; copy < 2; ++copy) {
+      eeprom_.read(static_cast<std::uint16_t>(layout::header_copies[copy] + generation_offset), foreign + copy, 1);
+    }
+    generation_ = static_cast<std::uint8_t>(foreign[0] + 1);
+    if (generation_ == foreign[1]) ++generation_;
     header_copy_ = 0;
     header_dirty_ = true;
     return;
@@ -154,6 +157,18 @@ void ParameterStore::write_record(std::uint8_t slot) {
   eeprom_.write_page(layout::record_address(slot, 1 - newest), record, sizeof record);
 }
 
+void ParameterStore::write_dirty(std::uint8_t slot) {
+  set_bit(dirty_, slot, false);
+  --dirty_count_;
+  write_record(slot);
+}
+
+bool ParameterStore::write_first(std::uint8_t slot) {
+  if (!bit(dirty_, slot)) return false;
+  write_dirty(slot);
+  return true;
+}
+
 Microseconds ParameterStore::write_next(Microseconds now) {
   if (eeprom_.busy()) return now + poll_period;
   if (header_dirty_) {
@@ -161,9 +176,7 @@ Microseconds ParameterStore::write_next(Microseconds now) {
     write_header();
   } else {
     while (!bit(dirty_, next_slot_)) next_slot_ = static_cast<std::uint8_t>((next_slot_ + 1) % layout::slot_count);
-    set_bit(dirty_, next_slot_, false);
-    --dirty_count_;
-    write_record(next_slot_);
+    write_dirty(next_slot_);
   }
   return is_written() ? never : now + poll_period;
 }

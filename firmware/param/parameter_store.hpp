@@ -28,6 +28,10 @@ class ParameterStore {
   /// Stores a value: in force for value() at once, in the EEPROM soon.
   void store(std::uint8_t slot, std::int32_t value);
 
+  /// Starts to write the record of one slot before all others, unless it is written; the EEPROM must be free.
+  /// @return whether there was something to write
+  bool write_first(std::uint8_t slot);
+
   /// Forgets every setting in one step: the records of the old generation are no longer valid.
   void restore_factory_settings();
 
@@ -51,6 +55,7 @@ class ParameterStore {
   bool read_record(std::uint8_t slot, unsigned copy, std::uint8_t& sequence, std::int32_t& value);
   void write_header();
   void write_record(std::uint8_t slot);
+  void write_dirty(std::uint8_t slot);
   std::uint16_t record_crc(const std::uint8_t* record) const;
 
   hal::Eeprom& eeprom_;

@@ -42,6 +42,15 @@ Outcome Executor::store_in_program(const Command& command) {
   return {Status::command_loaded, command.value, Outcome::Form::normal};
 }
 
+void Executor::restore_factory_settings() {
+  if (parts_.global_parameters.hides_program()) {
+    parts_.machine.stop();
+    parts_.memory.erase();
+  }
+  wants_factory_reset_ = true;
+  wants_restart_ = true;
+}
+
 bool Executor::is_report_wanted() {
   reported_move_ = false;
   if (position_report_ == PositionReport::none) return false;

@@ -66,6 +66,16 @@ class Executor {
   /// Commands 137 and 255 want the module to restart when their reply is sent and the EEPROM is written.
   bool wants_restart() const { return wants_restart_; }
 
+  /// Has the module restart with factory settings. A program that is protected against reading is erased first, since
+  /// the protection (global parameter 81) is one of those settings.
+  void restore_factory_settings();
+  /// The restart is to find factory settings; true once.
+  bool take_factory_reset() {
+    const bool wanted = wants_factory_reset_;
+    wants_factory_reset_ = false;
+    return wanted;
+  }
+
   bool is_in_download_mode() const { return download_mode_; }
 
   /// Target reached messages (command 138).
@@ -109,6 +119,7 @@ class Executor {
   std::uint16_t download_address_ = 0;
   bool download_mode_ = false;
   bool wants_restart_ = false;
+  bool wants_factory_reset_ = false;
   bool reported_move_ = false;
   PositionReport position_report_ = PositionReport::none;
   std::uint8_t special_reply_[8] = {};

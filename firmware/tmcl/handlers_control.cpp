@@ -4,9 +4,6 @@ namespace opentmcl {
 
 namespace {
 
-constexpr bool protects_against_reading(std::int32_t protection) {
-  return (protection & 1) != 0;
-}
 constexpr bool protects_against_writing(std::int32_t protection) {
   return (protection & 2) != 0;
 }
@@ -92,7 +89,7 @@ Outcome Handlers::read_program_memory(Executor& executor, const Command& command
       ProgramMemory::Access::busy) {
     return {Status::ok, 0, Outcome::Form::busy};
   }
-  if (protects_against_reading(parts(executor).global_parameters[GlobalParameter::code_protection])) instruction = {};
+  if (parts(executor).global_parameters.hides_program()) instruction = {};
   std::uint8_t* bytes = executor.special_reply_;
   bytes[0] = instruction.opcode;
   bytes[1] = instruction.type;
@@ -145,8 +142,7 @@ Outcome Handlers::get_firmware_version(Executor& executor, const Command& comman
 
 Outcome Handlers::restore_factory_settings(Executor& executor, const Command& command) {
   if (parts(executor).global_parameters.is_locked()) return with_status(Status::eeprom_locked, command);
-  parts(executor).store.restore_factory_settings();
-  executor.wants_restart_ = true;
+  executor.restore_factory_settings();
   return {Status::ok, command.value, Outcome::Form::silent};
 }
 

@@ -109,10 +109,10 @@ Status Handlers::set_global(Executor& executor, std::uint8_t number, std::uint8_
       return status;
     }
     case GlobalParameter::code_protection: {
-      const std::int32_t before = globals[GlobalParameter::code_protection];
+      const bool was_hidden = globals.hides_program();
       const Status status = globals.set(number, bank, value);
-      // Odd values protect against reading: who leaves them must not find the program.
-      if (status == Status::ok && (before & 1) != 0 && (value & 1) == 0) {
+      // Who lifts the protection against reading must not find the program.
+      if (status == Status::ok && was_hidden && !globals.hides_program()) {
         parts(executor).machine.stop();
         parts(executor).memory.erase();
       }

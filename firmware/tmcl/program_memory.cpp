@@ -56,7 +56,7 @@ void ProgramMemory::erase() {
 }
 
 Microseconds ProgramMemory::erase_next(Microseconds now) {
-  if (store_.is_written() && !eeprom_.busy()) {
+  if (!eeprom_.busy() && !store_.write_first(layout::program_state_slot)) {
     for (std::uint8_t& byte : buffer_) byte = 0;
     eeprom_.write_page(erase_page_, buffer_, hal::Eeprom::page_size);
     erase_page_ = static_cast<std::uint16_t>((erase_page_ + hal::Eeprom::page_size) % hal::Eeprom::size);

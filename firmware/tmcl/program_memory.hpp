@@ -43,7 +43,8 @@ class ProgramMemory {
   /// Writes what is left in the buffer and marks the program as complete.
   Access end_download();
 
-  /// Overwrites the whole memory, in the background: until that is done every access is busy.
+  /// Overwrites the whole memory, in the background: until that is done every access is busy. Only the mark that the
+  /// program is incomplete is written before; no other setting may be, for it could lift the program's protection.
   void erase();
   bool is_erasing() const { return erase_page_ != 0; }
 

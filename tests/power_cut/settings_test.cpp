@@ -198,5 +198,49 @@ TEST_P(PowerCut, LeavesEachSettingAtItsOldOrItsNewValue) {
   }
 }
 
+TEST_P(PowerCut, LeavesOldOrNewValuesWhenItComesAgainDuringTheSecondAttempt) {
+  // Each record is written without regard to the others: of many, a few are enough.
+  constexpr std::size_t many = 25;
+  std::vector<Command> commands = write().commands(description().id, 2);
+  if (commands.size() > many) commands.resize(4);
+  const Image before = image_after(description(), used_image(description(), 2),
+                                   {command(Opcode::sgp, 84, 0, write().stores_coordinates ? 1 : 0)});
+  RecordedModule first(description(), before);
+  send_all(first, commands);
+  ASSERT_FALSE(first.writes().empty());
+  const auto old_settings = visible_settings(description(), before);
+  const auto new_settings = visible_settings(description(), first.image());
+  at_every_cut(before, first.writes(), [&](const Image& interrupted) {
+    RecordedModule second(description(), interrupted);
+    send_all(second, commands);
+    at_every_cut(interrupted, second.writes(), [&](const Image& left) {
+      if (!HasFailure()) are_old_or_new(visible_settings(description(), left), old_settings, new_settings);
+    });
+    EXPECT_EQ(visible_settings(description(), second.image()), new_settings);
+  });
+}
+
+class EepromOfAnotherModule : public testing::TestWithParam<int> {};
+
+INSTANTIATE_TEST_SUITE_P(FactoryResets, EepromOfAnotherModule, testing::Values(0, 1, 2, 3));
+
+TEST_P(EepromOfAnotherModule, IsPutIntoServiceWithoutAnyOfItsSettings) {
+  // Each factory reset writes the other copy of the header.
+  Image foreign = used_image(pd1161, 1);
+  for (int reset = 0; reset < GetParam(); ++reset) {
+    foreign = image_after(pd1161, foreign, restore_factory_settings(ModuleId::pd1161, 0));
+    foreign = image_after(pd1161, foreign, store_user_variables(ModuleId::pd1161, reset));
+    foreign = image_after(pd1161, foreign, {command(Opcode::sgp, 84, 0, 1)});
+  }
+  const auto factory_settings = visible_settings(tmcm1110, erased_image());
+  RecordedModule module(tmcm1110, foreign);
+  module.settle();
+  at_every_cut(foreign, module.writes(), [&](const Image& left) {
+    if (!HasFailure()) {
+      EXPECT_EQ(visible_settings(tmcm1110, left), factory_settings);
+    }
+  });
+}
+
 }  // namespace
 }  // namespace opentmcl::tests
