@@ -9,7 +9,7 @@
 
 namespace opentmcl::eeprom_layout {
 
-inline constexpr std::uint8_t version = 1;
+inline constexpr std::uint8_t version = 2;
 
 // ---- Header: two copies, each 16 bytes, in one page of their own ---------------------------------------------------
 inline constexpr std::uint16_t header_copies[2] = {0, 32};

@@ -9,23 +9,26 @@ namespace layout = eeprom_layout;
 
 namespace {
 
-/// Newer of two sequence numbers that count modulo 256 and are one apart.
-constexpr bool is_newer(std::uint8_t a, std::uint8_t b) {
-  return static_cast<std::int8_t>(static_cast<std::uint8_t>(a - b)) > 0;
+/// Newer of two sequence numbers or generations that count modulo 256 or 65536 and are one apart.
+template <class Number>
+constexpr bool is_newer(Number a, Number b) {
+  const auto ahead = static_cast<Number>(a - b);
+  return ahead != 0 && ahead <= static_cast<Number>(~Number{0}) / 2;
 }
 
-// Header bytes: "OTMCL", layout version, module type number (2), generation, 5 zero bytes, CRC (2).
+// Header bytes: "OTMCL", layout version, module type number (2), generation (2), 4 zero bytes, CRC (2).
 constexpr std::uint8_t magic[] = {'O', 'T', 'M', 'C', 'L'};
 constexpr std::size_t version_offset = sizeof magic;
 constexpr std::size_t type_offset = version_offset + 1;
 constexpr std::size_t generation_offset = type_offset + 2;
 constexpr std::size_t header_crc_offset = layout::header_size - 2;
 
-// Record bytes: sequence, slot, value (4), CRC (2) over the generation and the six bytes before.
-constexpr std::size_t sequence_offset = 0;
-constexpr std::size_t slot_offset = 1;
-constexpr std::size_t value_offset = 2;
-constexpr std::size_t record_crc_offset = 6;
+// Record bytes: slot, value (4), CRC (2) over generation, sequence and the five bytes before, sequence. The sequence is
+// last because some torn records have a right CRC by chance: they still have the old sequence.
+constexpr std::size_t slot_offset = 0;
+constexpr std::size_t value_offset = 1;
+constexpr std::size_t record_crc_offset = 5;
+constexpr std::size_t sequence_offset = 7;
 
 constexpr void put_uint16(std::uint8_t* bytes, std::uint16_t value) {
   bytes[0] = static_cast<std::uint8_t>(value >> 8);
@@ -60,9 +63,10 @@ bool ParameterStore::load_header() {
     std::uint8_t header[layout::header_size];
     eeprom_.read(layout::header_copies[copy], header, sizeof header);
     if (!is_header(header, module_.type_number)) continue;
-    if (found && !is_newer(header[generation_offset], generation_)) continue;
+    const std::uint16_t generation = get_uint16(header + generation_offset);
+    if (found && !is_newer(generation, generation_)) continue;
     found = true;
-    generation_ = header[generation_offset];
+    generation_ = generation;
     header_copy_ = static_cast<std::uint8_t>(1 - copy);
   }
   return found;
@@ -75,12 +79,12 @@ void ParameterStore::load() {
   header_dirty_ = false;
   if (!load_header()) {
     // Records of whatever was here before must not come to life again: take a generation that neither header has.
-    std::uint8_t foreign[2];
+    std::uint8_t foreign[2][layout::header_size];
     for (unsigned copy = 0; copy < 2; ++copy) {
-      eeprom_.read(static_cast<std::uint16_t>(layout::header_copies[copy] + generation_offset), foreign + copy, 1);
+      eeprom_.read(layout::header_copies[copy], foreign[copy], sizeof foreign[copy]);
     }
-    generation_ = static_cast<std::uint8_t>(foreign[0] + 1);
-    if (generation_ == foreign[1]) ++generation_;
+    generation_ = static_cast<std::uint16_t>(get_uint16(foreign[0] + generation_offset) + 1);
+    if (generation_ == get_uint16(foreign[1] + generation_offset)) ++generation_;
     header_copy_ = 0;
     header_dirty_ = true;
     return;
@@ -89,7 +93,10 @@ void ParameterStore::load() {
 }
 
 std::uint16_t ParameterStore::record_crc(const std::uint8_t* record) const {
-  return crc16(record, record_crc_offset, crc16(&generation_, 1));
+  std::uint8_t first[3];
+  put_uint16(first, generation_);
+  first[2] = record[sequence_offset];
+  return crc16(record, record_crc_offset, crc16(first, sizeof first));
 }
 
 bool ParameterStore::read_record(std::uint8_t slot, unsigned copy, std::uint8_t& sequence, std::int32_t& value) {
@@ -134,7 +141,7 @@ void ParameterStore::write_header() {
   for (std::size_t i = 0; i < sizeof magic; ++i) header[i] = magic[i];
   header[version_offset] = layout::version;
   put_uint16(header + type_offset, module_.type_number);
-  header[generation_offset] = generation_;
+  put_uint16(header + generation_offset, generation_);
   put_uint16(header + header_crc_offset, crc16(header, header_crc_offset));
   eeprom_.write_page(layout::header_copies[header_copy_], header, sizeof header);
   header_copy_ = static_cast<std::uint8_t>(1 - header_copy_);

@@ -65,7 +65,7 @@ class ParameterStore {
   Bits dirty_ = {};
   std::uint8_t dirty_count_ = 0;
   std::uint8_t next_slot_ = 0;
-  std::uint8_t generation_ = 0;
+  std::uint16_t generation_ = 0;
   std::uint8_t header_copy_ = 0;  ///< the one to write next
   bool header_dirty_ = false;
 };

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware/param/crc16.hpp"
 #include "tests/power_cut/visible_settings.hpp"
 
 namespace opentmcl::tests {
@@ -218,6 +219,43 @@ TEST_P(PowerCut, LeavesOldOrNewValuesWhenItComesAgainDuringTheSecondAttempt) {
     });
     EXPECT_EQ(visible_settings(description(), second.image()), new_settings);
   });
+}
+
+/// A checksum of 16 bits cannot tell all torn records from whole ones: values that differ in the right bits leave it
+/// right. These are the differences for records that begin or end with their sequence number.
+TEST(TornRecord, IsNotTakenForANewerOneWhenItsChecksumIsRightByChance) {
+  constexpr std::uint32_t polynomial = 0x11021;
+  constexpr std::uint8_t sequences_and_slot[] = {1 ^ 3, 0};  // the third record overwrites the first
+  const std::uint32_t behind_the_sequence =
+      static_cast<std::uint32_t>(crc16(sequences_and_slot, sizeof sequences_and_slot, 0)) << 16;
+  constexpr std::uint32_t first = 0x12345678;
+  constexpr std::uint32_t second = 1000;
+  constexpr std::uint32_t beyond_the_cut = 0x5A;
+  const auto store = [](std::uint32_t value) {
+    return std::vector<Command>{command(Opcode::sgp, 7, bank_2, static_cast<std::int32_t>(value)),
+                                command(Opcode::stgp, 7, bank_2)};
+  };
+  for (const std::uint32_t difference : {behind_the_sequence, polynomial << 8, polynomial << 15}) {
+    const Image before = image_after(pd1161, image_after(pd1161, erased_image(), store(first)), store(second));
+    const std::uint32_t third = first ^ difference ^ beyond_the_cut;
+    RecordedModule module(pd1161, before);
+    send_all(module, store(third));
+    at_every_cut(before, module.writes(), [&](const Image& left) {
+      RecordedModule restarted(pd1161, left);
+      const auto found = static_cast<std::uint32_t>(restarted.execute(command(Opcode::ggp, 7, bank_2)));
+      EXPECT_TRUE(found == second || found == third)
+          << std::hex << found << " instead of " << second << " or " << third;
+    });
+  }
+}
+
+TEST(FactorySettings, DoNotBringOldSettingsBackHoweverOftenTheyAreRestored) {
+  Image image = used_image(tmcm1110, 1);
+  const auto factory_settings = visible_settings(tmcm1110, erased_image());
+  for (int reset = 0; reset < 300; ++reset) {
+    image = image_after(tmcm1110, image, restore_factory_settings(ModuleId::tmcm1110, 0));
+    ASSERT_EQ(visible_settings(tmcm1110, image), factory_settings) << "after " << reset + 1 << " factory resets";
+  }
 }
 
 class EepromOfAnotherModule : public testing::TestWithParam<int> {};
