@@ -8,13 +8,13 @@ bool is_high(std::uint32_t inputs, hal::InputPin pin) {
   return (inputs >> static_cast<unsigned>(pin) & 1) != 0;
 }
 
-/// Parameter 193: a mode, and one option that belongs to it (PD-1161 manual 7.1): 64 with modes 1 to 4, 128 with 5
-/// to 8.
-constexpr bool is_reference_search_mode(std::int32_t value) {
+/// Parameter 193: a mode, and one option that belongs to it (PD-1161 manual 7.1): 64 with modes 1 to 4, which the
+/// TMCM-1110 does not have, 128 with 5 to 8.
+constexpr bool is_reference_search_mode(ModuleId module, std::int32_t value) {
   constexpr std::int32_t search_right_switch = 64;
   constexpr std::int32_t invert_home_switch = 128;
   if (value >= 1 && value <= 8) return true;
-  if (value >= search_right_switch + 1 && value <= search_right_switch + 4) return true;
+  if (value >= search_right_switch + 1 && value <= search_right_switch + 4) return module == ModuleId::pd1161;
   return value >= invert_home_switch + 5 && value <= invert_home_switch + 8;
 }
 
@@ -107,16 +107,17 @@ Status AxisParameterAccess::set(std::uint8_t number, std::int32_t value) {
   if (row == no_row) return Status::wrong_type;
   if (value < columns_[row].minimum || value > columns_[row].maximum) return Status::invalid_value;
   const auto parameter = static_cast<AxisParameter>(number);
-  if (parameter == AxisParameter::reference_search_mode && !is_reference_search_mode(value)) {
+  if (parameter == AxisParameter::reference_search_mode && !is_reference_search_mode(module_, value)) {
     return Status::invalid_value;
   }
   apply(parameter, row, value);
   return Status::ok;
 }
 
-Status AxisParameterAccess::store(std::uint8_t number) {
+Status AxisParameterAccess::store(std::uint8_t number, bool is_locked) {
   const std::uint8_t row = row_if(number, Access::e);
   if (row == no_row) return Status::wrong_type;
+  if (is_locked) return Status::eeprom_locked;
   store_.store(eeprom_layout::axis_parameter_slot[row], axis_.settings().in_row(row));
   return Status::ok;
 }

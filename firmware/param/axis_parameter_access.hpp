@@ -15,15 +15,19 @@ namespace opentmcl {
 class AxisParameterAccess {
  public:
   AxisParameterAccess(ModuleId module, Axis& axis, ParameterStore& store, hal::Pins& pins)
-      : columns_(axis_parameter_columns[static_cast<std::size_t>(module)]), axis_(axis), store_(store), pins_(pins) {}
+      : module_(module),
+        columns_(axis_parameter_columns[static_cast<std::size_t>(module)]),
+        axis_(axis),
+        store_(store),
+        pins_(pins) {}
 
   /// @return ok, or wrong_type when the module has no such parameter
   Status get(std::uint8_t number, std::int32_t& value);
   /// @return ok, wrong_type (no such parameter, or read only) or invalid_value (out of range)
   Status set(std::uint8_t number, std::int32_t value);
-  /// @return ok, or wrong_type when it cannot be stored
-  Status store(std::uint8_t number);
-  /// Sets the parameter to its stored value, or to its default when nothing is stored. Results as store().
+  /// @return ok, wrong_type when it cannot be stored, or eeprom_locked
+  Status store(std::uint8_t number, bool is_locked);
+  /// Sets the parameter to its stored value, or to its default when nothing is stored. @return ok or wrong_type
   Status restore(std::uint8_t number);
 
   /// Puts all stored values into the axis's settings without telling the chips: for the start, before
@@ -34,6 +38,7 @@ class AxisParameterAccess {
   std::uint8_t row_if(std::uint8_t number, Access access) const;
   void apply(AxisParameter parameter, std::size_t row, std::int32_t value);
 
+  ModuleId module_;
   const ParameterColumns<axis_parameter_count>& columns_;
   Axis& axis_;
   ParameterStore& store_;

@@ -106,8 +106,10 @@ Status GlobalParameterAccess::set_in_bank_0(std::uint8_t number, std::int32_t va
 
 Status GlobalParameterAccess::store(std::uint8_t number, std::uint8_t bank) {
   switch (static_cast<Bank>(bank)) {
-    case Bank::module_settings:
-      return check(number, Access::a);
+    case Bank::module_settings: {
+      const Status status = check(number, Access::a);
+      return status == Status::ok && is_locked() ? Status::eeprom_locked : status;
+    }
     case Bank::user_variables:
       if (number >= stored_user_variable_count) return Status::wrong_type;
       if (is_locked()) return Status::eeprom_locked;

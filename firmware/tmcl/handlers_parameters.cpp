@@ -75,8 +75,8 @@ Outcome Handlers::get_axis_parameter(Executor& executor, const Command& command)
 }
 
 Outcome Handlers::store_axis_parameter(Executor& executor, const Command& command) {
-  if (parts(executor).global_parameters.is_locked()) return with_status(Status::eeprom_locked, command);
-  return with_status(parts(executor).axis_parameters.store(command.type), command);
+  const bool is_locked = parts(executor).global_parameters.is_locked();
+  return with_status(parts(executor).axis_parameters.store(command.type, is_locked), command);
 }
 
 Outcome Handlers::restore_axis_parameter(Executor& executor, const Command& command) {
