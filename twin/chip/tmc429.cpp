@@ -1,5 +1,8 @@
 #include "twin/chip/tmc429.hpp"
 
+#include <algorithm>
+#include <optional>
+
 namespace opentmcl::twin {
 namespace {
 
@@ -180,15 +183,26 @@ void Tmc429::advance(std::uint64_t clocks) {
     stopped_clocks_ += clocks;
     return;
   }
-  const std::uint64_t end = (clock_ - stopped_clocks_) / tmc429::clock_prescaler;
+  const auto tick_at = [this](std::uint64_t clock) {
+    return clock > stopped_clocks_ ? (clock - stopped_clocks_) / tmc429::clock_prescaler : 0;
+  };
+  const std::uint64_t end = tick_at(clock_);
   for (unsigned motor = 0; motor < tmc429::motor_count; ++motor) {
     Tmc429Axis& axis = axes_[motor];
-    while (axis.advance_to_step(end)) {
-      after_position_change();
-      const std::uint64_t step_clock = axis.now() * tmc429::clock_prescaler + stopped_clocks_;
-      outputs_[motor].step(step_clock, axis.decreasing(), output_settings_);
+    Tmc429StepOutput& output = outputs_[motor];
+    while (true) {
+      // The ramp must not run past a delayed step: that may press a switch.
+      const std::optional<std::uint64_t> delayed = output.delayed_edge();
+      if (axis.advance_to_step(delayed ? std::min(end, tick_at(*delayed)) : end)) {
+        after_position_change();
+        const std::uint64_t step_clock = axis.now() * tmc429::clock_prescaler + stopped_clocks_;
+        output.step(step_clock, axis.decreasing(), output_settings_);
+      } else if (delayed && *delayed <= clock_) {
+        output.advance(*delayed, output_settings_);
+      } else {
+        break;
+      }
     }
-    outputs_[motor].advance(clock_, output_settings_);
   }
 }
 

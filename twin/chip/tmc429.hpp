@@ -18,7 +18,7 @@ namespace opentmcl::twin {
 class Tmc429 {
  public:
   /// `listener` hears the steps of all motors in Step/Dir mode, those of one motor in the order of time. It must
-  /// outlive this and must not call back into it.
+  /// outlive this; from within a step it may only set switches, which then act from that step on.
   explicit Tmc429(StepListener& listener);
 
   // ---- Bus door

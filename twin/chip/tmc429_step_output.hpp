@@ -23,6 +23,9 @@ class Tmc429StepOutput {
   /// Nothing comes out while the chip serves SPI drivers.
   void step(std::uint64_t clock, bool decreasing, const Settings& settings);
 
+  /// Clock at which a delayed step is to go out, if there is one.
+  const std::optional<std::uint64_t>& delayed_edge() const { return delayed_edge_; }
+
   /// Gives out a delayed step whose time has come by `clock`.
   void advance(std::uint64_t clock, const Settings& settings);
 

@@ -1,7 +1,9 @@
-// The rotor of a motor without inertia, friction and load: it stands where the field points.
+// The rotor of a motor without inertia, friction and load: it stands where the field points, or at a hard end.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 
 namespace opentmcl::twin {
 
@@ -10,12 +12,20 @@ class IdealRotor {
   /// Electrical angles are counted in 1/1024 of a turn of the field, which is four full steps.
   static constexpr std::uint32_t field_turn = 1024;
 
+  /// A rotor that turns freely.
+  IdealRotor() = default;
+  /// A rotor that cannot leave the angles `lowest` to `highest`, with 0 between them.
+  IdealRotor(std::int64_t lowest, std::int64_t highest) : lowest_(lowest), highest_(highest) {}
+
   /// Turns the shorter way to the nearest place where the rotor stands at `field_angle`, 0…1023; half a turn goes down.
+  /// A hard end stops it on the way. A field that runs on turns ahead of it until, half a turn further, the shorter way
+  /// leads back: the rotor has lost four full steps.
   /// Without current in the coils nobody calls this and the rotor stays where it is.
   void follow(std::uint32_t field_angle) {
     constexpr std::uint32_t half = field_turn / 2;
     const std::uint32_t ahead = (field_angle - static_cast<std::uint32_t>(angle_)) % field_turn;
-    angle_ += static_cast<std::int64_t>((ahead + half) % field_turn) - std::int64_t{half};
+    const std::int64_t way = static_cast<std::int64_t>((ahead + half) % field_turn) - std::int64_t{half};
+    angle_ = std::clamp(angle_ + way, lowest_, highest_);
   }
 
   /// Shaft angle since power-on, in microsteps of 1/256 full step, positive for rising field angles.
@@ -23,6 +33,8 @@ class IdealRotor {
 
  private:
   std::int64_t angle_ = 0;
+  std::int64_t lowest_ = std::numeric_limits<std::int64_t>::min();
+  std::int64_t highest_ = std::numeric_limits<std::int64_t>::max();
 };
 
 }  // namespace opentmcl::twin

@@ -24,6 +24,21 @@ TEST(IdealRotor, FollowsNegativeAngles) {
   EXPECT_EQ(rotor.angle(), -256);
 }
 
+TEST(IdealRotor, LosesFourFullStepsForEveryTurnOfTheFieldAtAHardEnd) {
+  constexpr std::int64_t end = 300;
+  constexpr std::uint32_t turns = 5;
+  IdealRotor rotor(-end, end);
+  std::uint32_t field = 0;
+  while (field < end + turns * IdealRotor::field_turn) {
+    rotor.follow(++field % IdealRotor::field_turn);
+    EXPECT_LE(rotor.angle(), end);
+    EXPECT_GE(rotor.angle(), end - 512) << "falls back by half a turn of the field and comes again";
+  }
+  EXPECT_EQ(rotor.angle(), end);
+  for (int step = 0; step < 100; ++step) rotor.follow(--field % IdealRotor::field_turn);
+  EXPECT_EQ(rotor.angle(), end - 100) << "follows again, five turns of the field behind";
+}
+
 RC_GTEST_PROP(IdealRotor, AlwaysStandsAtTheFieldAndNeverTurnsMoreThanHalfWay, ()) {
   IdealRotor rotor;
   for (const auto raw : *rc::gen::arbitrary<std::vector<std::uint16_t>>()) {

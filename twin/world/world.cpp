@@ -5,25 +5,35 @@ namespace {
 
 constexpr unsigned driven_motor = 0;  // motor 1: the only one with a driver on these modules
 
+IdealRotor rotor_of(const World::Machine& machine) {
+  if (!machine.stage) return {};
+  const LinearStage::AngleRange travel = LinearStage(*machine.stage).travel();
+  return {travel.lowest, travel.highest};
+}
+
 }  // namespace
 
-World::World(TraceObserver* observer) : observer_(observer) {
+World::World(TraceObserver* observer, const Machine& machine)
+    : observer_(observer), rotor_(rotor_of(machine)), encoder_(machine.encoder) {
+  if (machine.stage) stage_.emplace(*machine.stage);
   tmc429_.emplace(static_cast<StepListener&>(*this));
   tmc262_.set_temperature(temperature_);
+  follow_shaft(now_);
 }
 
 void World::power_cycle() {
   report(now_, "power", 0);
   powered_at_ = now_;
   tmc429_.emplace(static_cast<StepListener&>(*this));
-  tmc429_->set_left_switch(left_switch_);
-  tmc429_->set_right_switch(right_switch_);
   tmc262_ = Tmc262{};
   tmc262_.set_temperature(temperature_);
   tmc262_.set_load_measurement(load_measurement_);
   tmc262_.set_supply_voltage(supply_voltage_);
   eeprom_.power_up();
   set_outputs(0);
+  encoder_.power_up();
+  pull_ups_ = true;
+  update_switches(now_);
   direction_ = false;
   report(now_, "power", 1);
 }
@@ -44,7 +54,7 @@ std::uint32_t World::transfer_tmc429(std::uint32_t datagram) {
 std::uint32_t World::transfer_tmc262(std::uint32_t word) {
   report(now_, "tmc262.word", word);
   const std::uint32_t reply = tmc262_.transfer(word, now_ - powered_at_);
-  turn_rotor();
+  turn_rotor(now_);
   return reply;
 }
 
@@ -75,19 +85,27 @@ void World::set_inputs(std::uint32_t levels) {
 void World::set_driver_disable(bool level) {
   report(now_, "driver_disable", level);
   tmc262_.set_enable_not(level);
-  turn_rotor();
+  turn_rotor(now_);
 }
 
-void World::set_left_switch(bool level) {
-  report(now_, "left_switch", level);
-  left_switch_ = level;
-  tmc429_->set_left_switch(level);
+void World::set_pull_ups(bool on) {
+  pull_ups_ = on;
+  update_switches(now_);
 }
 
-void World::set_right_switch(bool level) {
-  report(now_, "right_switch", level);
-  right_switch_ = level;
-  tmc429_->set_right_switch(level);
+void World::set_left_switch(bool open) {
+  opened_by_hand_.left = open;
+  update_switches(now_);
+}
+
+void World::set_right_switch(bool open) {
+  opened_by_hand_.right = open;
+  update_switches(now_);
+}
+
+void World::set_home_switch(bool open) {
+  opened_by_hand_.home = open;
+  update_switches(now_);
 }
 
 void World::set_analog_input(unsigned channel, std::int32_t value) {
@@ -118,7 +136,7 @@ void World::set_temperature(std::int32_t celsius) {
   temperature_ = celsius;
   report(now_, "temperature", celsius);
   tmc262_.set_temperature(celsius);
-  turn_rotor();
+  turn_rotor(now_);
 }
 
 void World::step(const StepEvent& event) {
@@ -138,16 +156,50 @@ void World::step(const StepEvent& event) {
 }
 
 void World::step_edge(bool rising, const StepEvent& event) {
-  report(powered_at_ + event.clock, "step", rising);
+  const Tick tick = powered_at_ + event.clock;
+  report(tick, "step", rising);
   tmc262_.step_edge(rising, event.direction, event.clock);
-  turn_rotor();
+  turn_rotor(tick);
 }
 
-void World::turn_rotor() {
+void World::turn_rotor(Tick tick) {
   const bool spi_sets_currents = tmc262::DriverConfiguration::StepDirOff::is_set(tmc262_.driver_configuration());
   if (tmc262_.bridges_on() && !spi_sets_currents) {
+    const std::int64_t before = rotor_.angle();
     rotor_.follow(tmc262_.microstep_position());
+    if (rotor_.angle() != before) follow_shaft(tick);
   }
+}
+
+/// What the shaft moves: the encoder, the slider and its switches.
+void World::follow_shaft(Tick tick) {
+  const std::int64_t angle = rotor_.angle();
+  encoder_.follow(angle);
+  if (stage_) {
+    const LinearStage::Contacts contacts = stage_->contacts_at(angle);
+    if (contacts != contacts_) {
+      contacts_ = contacts;
+      update_switches(tick);
+    }
+  }
+  if (observer_ == nullptr) return;
+  if (encoder_.count() != traced_count_) report(tick, "encoder", traced_count_ = encoder_.count());
+  if (stage_ && stage_->place_at(angle) != traced_place_)
+    report(tick, "stage", traced_place_ = stage_->place_at(angle));
+}
+
+/// A closed contact pulls its input to ground, a pull-up resistor lifts that of an open one.
+void World::update_switches(Tick tick) {
+  const auto level = [this, tick](std::string_view name, bool open, bool before) {
+    const bool high = open && pull_ups_;
+    if (high != before) report(tick, name, high);
+    return high;
+  };
+  levels_ = {.left = level("left_switch", contacts_.left || opened_by_hand_.left, levels_.left),
+             .right = level("right_switch", contacts_.right || opened_by_hand_.right, levels_.right),
+             .home = level("home_switch", contacts_.home || opened_by_hand_.home, levels_.home)};
+  tmc429_->set_left_switch(levels_.left);
+  tmc429_->set_right_switch(levels_.right);
 }
 
 void World::report(Tick tick, std::string_view signal, std::int64_t value) {

@@ -12,6 +12,8 @@
 #include "twin/chip/tmc262.hpp"
 #include "twin/chip/tmc429.hpp"
 #include "twin/physics/ideal_rotor.hpp"
+#include "twin/physics/linear_stage.hpp"
+#include "twin/physics/shaft_encoder.hpp"
 #include "twin/world/trace.hpp"
 
 namespace opentmcl::twin {
@@ -22,8 +24,16 @@ class World : private StepListener {
  public:
   static constexpr unsigned analog_channel_count = 4;
 
+  /// What is mounted on the shaft.
+  struct Machine {
+    /// Nothing: a free shaft without end, all switch inputs wired to ground.
+    std::optional<LinearStageDimensions> stage;
+    ShaftEncoder encoder{ShaftEncoder::Kind::incremental};
+  };
+
   /// `observer`, if any, must outlive this and must not call back into it.
-  explicit World(TraceObserver* observer = nullptr);
+  explicit World(TraceObserver* observer = nullptr) : World(observer, Machine{}) {}
+  World(TraceObserver* observer, const Machine& machine);
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
@@ -56,12 +66,21 @@ class World : private StepListener {
   void set_driver_disable(bool level);
   /// SG_TST of the TMC262.
   bool stall_guard_output() const { return tmc262_.stall_guard_output(); }
+  /// Pull-up resistors of the inputs for both limit switches and the home switch; on at power-on. Without them such an
+  /// input is low whatever its switch does.
+  void set_pull_ups(bool on);
+  /// Level at the input for the home switch. Those for the limit switches go to the TMC429.
+  bool home_switch() const { return levels_.home; }
+  /// Read it for its counts; followed by the world.
+  ShaftEncoder& encoder() { return encoder_; }
 
   // ---- What a person at the bench can change
 
-  /// Levels at the switch inputs of the TMC429 for motor 1; low at the start.
-  void set_left_switch(bool level);
-  void set_right_switch(bool level);
+  /// A finger on a switch, or a wire cut: true opens its contact, so that the input goes high; false leaves it to the
+  /// machine.
+  void set_left_switch(bool open);
+  void set_right_switch(bool open);
+  void set_home_switch(bool open);
   /// Converter value, `channel` 0…3; the board says what each channel is. 0 at the start.
   std::int32_t analog_input(unsigned channel) const { return analog_inputs_.at(channel); }
   void set_analog_input(unsigned channel, std::int32_t value);
@@ -84,6 +103,8 @@ class World : private StepListener {
 
   /// Angle of the shaft since power-on in microsteps of 1/256 full step.
   std::int64_t rotor_angle() const { return rotor_.angle(); }
+  /// Nothing on a free shaft.
+  const std::optional<LinearStage>& stage() const { return stage_; }
   const Tmc429& tmc429() const { return *tmc429_; }
   const Tmc262& tmc262() const { return tmc262_; }
   const Eeprom& eeprom() const { return eeprom_; }
@@ -93,7 +114,9 @@ class World : private StepListener {
  private:
   void step(const StepEvent& event) override;
   void step_edge(bool rising, const StepEvent& event);
-  void turn_rotor();
+  void turn_rotor(Tick tick);
+  void follow_shaft(Tick tick);
+  void update_switches(Tick tick);
   void report(Tick tick, std::string_view signal, std::int64_t value);
 
   TraceObserver* observer_;
@@ -102,10 +125,16 @@ class World : private StepListener {
   std::optional<Tmc429> tmc429_;
   Tmc262 tmc262_;
   Eeprom eeprom_;
+  std::optional<LinearStage> stage_;
   IdealRotor rotor_;
+  ShaftEncoder encoder_;
+  LinearStage::Contacts contacts_{};        ///< as the machine has them
+  LinearStage::Contacts opened_by_hand_{};  ///< on top of that
+  LinearStage::Contacts levels_{};          ///< at the inputs: true is high
+  bool pull_ups_ = true;
+  std::int64_t traced_place_ = 0;
+  std::int64_t traced_count_ = 0;
   bool direction_ = false;
-  bool left_switch_ = false;
-  bool right_switch_ = false;
   std::uint32_t outputs_ = 0;
   std::uint32_t inputs_ = 0;
   std::array<std::int32_t, analog_channel_count> analog_inputs_{};
