@@ -1,6 +1,7 @@
 #include "boards/twin/virtual_module.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "firmware/module/module.hpp"
@@ -16,16 +17,20 @@ constexpr std::uint32_t bit(hal::OutputPin pin) {
   return 1U << static_cast<unsigned>(pin);
 }
 
+constexpr twin::ShaftEncoder::Kind encoder_of(ModuleId module) {
+  return module == ModuleId::pd1161 ? twin::ShaftEncoder::Kind::absolute : twin::ShaftEncoder::Kind::incremental;
+}
+
 }  // namespace
 
 /// firmware/hal on the models of the world: one small adapter for each device.
 class VirtualModule::Board {
  public:
-  explicit Board(twin::World& world, const std::vector<hal::Port>& ports)
+  explicit Board(ModuleId module, twin::World& world, const std::vector<hal::Port>& ports)
       : tmc429_(world),
         tmc262_(world),
         eeprom_(world),
-        pins_(world),
+        pins_(module, world),
         analog_(world),
         encoder_(world),
         hal{tmc429_, tmc262_,  eeprom_,      pins_,
@@ -57,15 +62,22 @@ class VirtualModule::Board {
   };
 
   struct PinBank final : hal::Pins {
-    explicit PinBank(twin::World& w) : world(w) {}
+    PinBank(ModuleId m, twin::World& w) : module(m), world(w) {}
     std::uint32_t inputs() override {
+      const auto level_at = [](bool level, hal::InputPin pin) { return level ? bit(pin) : 0; };
+      const bool has_null_line = world.encoder().kind() == twin::ShaftEncoder::Kind::absolute;
       return (world.inputs() & ~bit(hal::InputPin::stall_guard)) |
-             (world.stall_guard_output() ? bit(hal::InputPin::stall_guard) : 0);
+             level_at(world.stall_guard_output(), hal::InputPin::stall_guard) |
+             level_at(world.home_switch(), hal::InputPin::home_switch) |
+             level_at(has_null_line && world.encoder().near_null(), hal::InputPin::encoder_null);
     }
     void set_outputs(std::uint32_t levels) override {
       world.set_outputs(levels);
       world.set_driver_disable((levels & bit(hal::OutputPin::driver_disable)) != 0);
+      // Those of the TMCM-1110 are soldered in.
+      if (module == ModuleId::pd1161) world.set_pull_ups((levels & bit(hal::OutputPin::pull_ups)) != 0);
     }
+    ModuleId module;
     twin::World& world;
   };
 
@@ -95,31 +107,15 @@ class VirtualModule::Board {
     twin::World& world;
   };
 
-  /// An encoder on the shaft with 1024 counts a turn of 200 full steps and its null position where the shaft stood at
-  /// the start.
-  struct ShaftEncoder final : hal::Encoder {
-    explicit ShaftEncoder(twin::World& w) : world(w) {}
-    std::int32_t count() override { return static_cast<std::int32_t>(position()); }
-    bool take_null_event(bool, std::int32_t& count) override {
-      const std::int64_t turn = position() >> counts_per_turn_bits;
-      if (turn == last_turn) return false;
-      // Upwards the null position is at the begin of the new turn, downwards at the begin of the old one.
-      count = static_cast<std::int32_t>((turn > last_turn ? turn : turn + 1) << counts_per_turn_bits);
-      last_turn = turn;
-      return true;
+  struct EncoderInput final : hal::Encoder {
+    explicit EncoderInput(twin::World& w) : world(w) {}
+    std::int32_t count() override { return static_cast<std::int32_t>(world.encoder().count()); }
+    bool take_null_event(bool high_active, std::int32_t& count) override {
+      const std::optional<std::int64_t> event = world.encoder().take_null_event(high_active);
+      if (event) count = static_cast<std::int32_t>(*event);
+      return event.has_value();
     }
-
-   private:
-    static constexpr std::int64_t microsteps_per_count = 200 * 256 / 1024;
-    static constexpr unsigned counts_per_turn_bits = 10;
-
-    std::int64_t position() const {
-      const std::int64_t angle = world.rotor_angle();
-      return angle / microsteps_per_count - (angle % microsteps_per_count < 0 ? 1 : 0);
-    }
-
     twin::World& world;
-    std::int64_t last_turn = 0;
   };
 
   MotionController tmc429_;
@@ -127,7 +123,7 @@ class VirtualModule::Board {
   EepromDevice eeprom_;
   PinBank pins_;
   Converter analog_;
-  ShaftEncoder encoder_;
+  EncoderInput encoder_;
 
  public:
   Hal hal;
@@ -137,9 +133,9 @@ VirtualModule::VirtualModule(const ModuleDescription& description, std::vector<h
                              twin::TraceObserver* observer)
     : description_(description),
       options_(options),
-      world_(observer),
+      world_(observer, {options.stage, twin::ShaftEncoder(encoder_of(description.id))}),
       ports_(std::move(ports)),
-      board_(std::make_unique<Board>(world_, ports_)) {
+      board_(std::make_unique<Board>(description.id, world_, ports_)) {
   restart();
 }
 

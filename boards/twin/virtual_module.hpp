@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "firmware/hal/hal.hpp"
@@ -23,6 +24,8 @@ class VirtualModule {
     Microseconds turn = 100;
     /// User functions and bank 1; none if nullptr, else it must outlive the module.
     const Extensions* extensions = nullptr;
+    /// The machine on the shaft; std::nullopt: a free shaft without ends and switches.
+    std::optional<twin::LinearStageDimensions> stage = twin::LinearStageDimensions{};
   };
 
   /// @param ports at most 4; what they point to must outlive the module

@@ -16,8 +16,8 @@ enum class InputPin : std::uint8_t {
 
 /// Digital lines out of the microcontroller, as bit numbers of Pins::set_outputs().
 enum class OutputPin : std::uint8_t {
-  out0 = 0,  ///< general purpose output OUT0; OUT1 to OUT7 follow
-  pull_ups = 8,
+  out0 = 0,            ///< general purpose output OUT0; OUT1 to OUT7 follow
+  pull_ups = 8,        ///< of the inputs of both limit switches and the home switch (PD-1161)
   driver_disable = 9,  ///< ENN of the TMC262
 };
 

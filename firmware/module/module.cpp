@@ -35,7 +35,7 @@ bool Module::start(Microseconds now) {
   }
   axis_parameters_.load_stored();
   axis_.initialise(global_parameters_.wiring());
-  executor_.set_outputs(0);
+  executor_.set_outputs(Executor::power_on_outputs);
   executor_.reset_tick_timer(now);
   if (is_to_start_program()) program_machine_.run_from(0);
   watch_supply();

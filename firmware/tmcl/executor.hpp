@@ -84,6 +84,9 @@ class Executor {
   /// An MVP of a host was carried out since the last call; consumes a next_move request.
   bool take_reported_move() { return reported_move_ && is_report_wanted(); }
 
+  /// Outputs low; the pull-up resistors of the switch inputs on, so that normally closed switches are seen
+  /// (docs/decisions/0027-the-machine.md).
+  static constexpr std::uint32_t power_on_outputs = 1U << static_cast<unsigned>(hal::OutputPin::pull_ups);
   void set_outputs(std::uint32_t levels);
 
   /// Tells the program what happened to the axis: error flags of JC, CALL and CLE, and the interrupts of stallGuard and

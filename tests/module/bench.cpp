@@ -16,7 +16,7 @@ std::size_t TestPort::read(std::uint8_t* buffer, std::size_t capacity) {
 }
 
 Bench::Bench(const ModuleDescription& description, hal::PortKind kind, twin::TraceObserver* observer,
-             VirtualModule::Options options)
+             const VirtualModule::Options& options)
     : module(description, {{&port, kind}}, options, observer) {
   wait(one_millisecond);
 }

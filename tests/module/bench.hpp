@@ -29,7 +29,7 @@ class TestPort final : public hal::BytePort {
 class Bench {
  public:
   explicit Bench(const ModuleDescription& description, hal::PortKind kind = hal::PortKind::usb,
-                 twin::TraceObserver* observer = nullptr, VirtualModule::Options options = {});
+                 twin::TraceObserver* observer = nullptr, const VirtualModule::Options& options = {});
 
   /// Sends raw bytes and lets 3 ms pass. @return everything that came back
   std::vector<std::uint8_t> send(const std::vector<std::uint8_t>& bytes);

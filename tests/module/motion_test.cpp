@@ -123,7 +123,9 @@ TEST(PositionMode, LandsExactlyAndNeverPassesTheTarget) {
 }
 
 TEST(PositionMode, MakesOneRampOfAMoveOfAHundredMillionMicrosteps) {
-  Bench bench(pd1161);
+  VirtualModule::Options free_shaft;
+  free_shaft.stage.reset();
+  Bench bench(pd1161, hal::PortKind::usb, nullptr, free_shaft);
   bench.set(AxisParameter::pulse_divisor, 0);
   bench.set(AxisParameter::ramp_divisor, 4);
   bench.set(AxisParameter::maximum_acceleration, 100);
