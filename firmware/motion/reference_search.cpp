@@ -30,6 +30,13 @@ constexpr bool starts_positive(int mode) {
 }
 
 constexpr int left = -1;
+constexpr AxisParameter fast = AxisParameter::reference_search_speed;
+constexpr AxisParameter slowly = AxisParameter::reference_switch_speed;
+
+/// Half the difference, so that points near the ends of the range do not overflow.
+constexpr std::int32_t middle_of(std::int32_t a, std::int32_t b) {
+  return wrapping_sum(a, wrapping_difference(b, a) / 2);
+}
 
 }  // namespace
 
@@ -38,13 +45,12 @@ void ReferenceSearch::start() {
   mode_ = static_cast<std::int8_t>(setting & mode_mask);
   inverts_home_ = (setting & invert_home_option) != 0;
   const bool positive = starts_positive(mode_) || (setting & right_switch_option) != 0;
-  direction_ = positive ? 1 : -1;
+  forth_ = positive ? 1 : -1;
   axis_.enable_limit_stops(false);
   if (uses_other_end(mode_)) {
-    drive(-direction_, AxisParameter::reference_search_speed);
-    state_ = State::seek_other_end;
+    drive(-forth_, fast, State::seek_other_end);
   } else {
-    begin_seek();
+    drive(forth_, fast, State::seek);
   }
 }
 
@@ -60,13 +66,14 @@ void ReferenceSearch::yield_motor() {
   axis_.enable_limit_stops(true);
 }
 
-void ReferenceSearch::drive(int direction, AxisParameter speed) {
+void ReferenceSearch::drive(int direction, AxisParameter speed, State state) {
   axis_.rotate(direction * axis_.settings()[speed]);
+  state_ = state;
 }
 
-void ReferenceSearch::begin_seek() {
-  drive(direction_, AxisParameter::reference_search_speed);
-  state_ = State::seek;
+void ReferenceSearch::halt(State state) {
+  axis_.stop();
+  state_ = state;
 }
 
 bool ReferenceSearch::is_at_limit(int direction) {
@@ -74,9 +81,14 @@ bool ReferenceSearch::is_at_limit(int direction) {
 }
 
 bool ReferenceSearch::is_on_switch() {
-  if (!uses_home_switch(mode_)) return is_at_limit(direction_);
+  if (!uses_home_switch(mode_)) return is_at_limit(forth_);
   const bool level = (pins_.inputs() >> static_cast<unsigned>(hal::InputPin::home_switch) & 1) != 0;
   return level != inverts_home_;
+}
+
+/// A switch that is passed while the motor still comes out of the opposite direction does not count.
+bool ReferenceSearch::has_reached(bool switch_active, int direction) {
+  return switch_active && axis_.actual_velocity() * direction >= 0;
 }
 
 Microseconds ReferenceSearch::advance(Microseconds now) {
@@ -87,45 +99,48 @@ Microseconds ReferenceSearch::advance(Microseconds now) {
 void ReferenceSearch::step() {
   switch (state_) {
     case State::seek_other_end:
-      if (!is_at_limit(-direction_)) break;
+      if (!has_reached(is_at_limit(-forth_), -forth_)) break;
       other_end_ = axis_.position();
-      begin_seek();
+      drive(forth_, fast, State::seek);
       break;
     case State::seek:
-      if (is_on_switch()) {
-        drive(-direction_, AxisParameter::reference_switch_speed);
-        state_ = State::retreat;
-      } else if (turns_back_at_a_limit(mode_) && is_at_limit(direction_)) {
-        drive(-direction_, AxisParameter::reference_search_speed);
-        state_ = State::turn_back;
+      // Its edge is where it was last active on the way from it, however far into it the search began or overshot.
+      if (uses_other_end(mode_) && is_at_limit(-forth_)) other_end_ = axis_.position();
+      if (has_reached(is_on_switch(), forth_)) {
+        halt(State::brake);
+      } else if (turns_back_at_a_limit(mode_) && has_reached(is_at_limit(forth_), forth_)) {
+        drive(-forth_, fast, State::return_to_switch);
       }
       break;
-    case State::turn_back:
-      if (is_on_switch()) state_ = State::leave_home;
+    case State::return_to_switch:
+      if (has_reached(is_on_switch(), -forth_)) drive(-forth_, slowly, State::retreat);
       break;
-    case State::leave_home:
-      if (!is_on_switch()) begin_seek();
+    case State::brake:
+      if (axis_.actual_velocity() != 0) break;
+      drive(-forth_, slowly, is_on_switch() ? State::retreat : State::return_to_switch);
       break;
     case State::retreat:
       if (is_on_switch()) break;
-      first_edge_ = axis_.position();
-      drive(direction_, AxisParameter::reference_switch_speed);
-      state_ = State::enter;
+      first_point_ = axis_.position();
+      drive(forth_, slowly, State::enter);
       break;
     case State::enter:
       if (!is_on_switch()) break;
+      second_point_ = axis_.position();
       if (crosses_the_switch(mode_)) {
-        first_edge_ = axis_.position();
+        first_point_ = second_point_;
         state_ = State::cross;
       } else {
-        note_edge();
+        halt(State::stop);
       }
       break;
     case State::cross:
-      if (!is_on_switch()) note_edge();
+      if (is_on_switch()) break;
+      second_point_ = axis_.position();
+      halt(State::stop);
       break;
     case State::stop:
-      if (axis_.actual_velocity() == 0) finish();
+      if (axis_.actual_velocity() == 0) set_origin();
       break;
     case State::go_to_origin:
       if (!axis_.position_reached()) break;
@@ -138,16 +153,9 @@ void ReferenceSearch::step() {
   }
 }
 
-/// The second switching point: the origin is in the middle of the two.
-void ReferenceSearch::note_edge() {
-  // Half the difference, so that positions near the ends of the range do not overflow.
-  first_edge_ = wrapping_sum(first_edge_, wrapping_difference(axis_.position(), first_edge_) / 2);
-  axis_.stop();
-  state_ = State::stop;
-}
-
-void ReferenceSearch::finish() {
-  const std::int32_t origin = first_edge_;
+/// The origin is in the middle of the two switching points.
+void ReferenceSearch::set_origin() {
+  const std::int32_t origin = middle_of(first_point_, second_point_);
   AxisSettings& settings = axis_.settings();
   settings.set(AxisParameter::last_reference_position, origin);
   if (uses_other_end(mode_)) {

@@ -10,21 +10,22 @@ namespace opentmcl {
 
 /// The built-in reference search (RFS): eight modes as one state machine over the axis. It measures two switching
 /// points at the switch speed (parameter 195) and puts the origin in their middle. Source: PD-1161 manual 7.1;
-/// docs/decisions/0013-reference-search.md draws the states.
+/// docs/reference_search.md draws the states.
 class ReferenceSearch {
  public:
-  /// Numbers as RFS STATUS shows them.
+  /// Numbers as RFS STATUS shows them. "Fast" is parameter 194, "slowly" 195; "forth" is towards the switch, from the
+  /// side on which the search approaches it, "back" the other way.
   enum class State : std::uint8_t {
     idle = 0,
-    seek_other_end = 1,  ///< modes 2 and 3: fast towards the opposite limit switch
-    seek = 2,            ///< fast towards the switch
-    turn_back = 3,       ///< modes 5 and 6: a limit switch was there first; fast back past the home switch
-    leave_home = 4,      ///< still on the way back, on the home switch
-    retreat = 5,         ///< slowly off the switch, on the side it was approached from
-    enter = 6,           ///< slowly onto the switch
-    cross = 7,           ///< slowly through the switch
-    stop = 8,            ///< until the motor stands
-    go_to_origin = 9,
+    seek_other_end = 1,    ///< modes 2 and 3: fast back, until the opposite limit switch is active
+    seek = 2,              ///< fast forth, until the switch is active
+    return_to_switch = 3,  ///< back onto the switch: fast from a limit switch, slowly when the motor overshot
+    brake = 4,             ///< until the motor stands
+    retreat = 5,           ///< slowly back off the switch
+    enter = 6,             ///< slowly forth onto the switch
+    cross = 7,             ///< modes 3 to 8: slowly forth until it is off the switch
+    stop = 8,              ///< until the motor stands; then the origin is set
+    go_to_origin = 9,      ///< a move to position 0
     aborted = 15,
   };
 
@@ -48,22 +49,23 @@ class ReferenceSearch {
 
  private:
   Microseconds advance(Microseconds now);
-  void drive(int direction, AxisParameter speed);
-  void begin_seek();
-  void note_edge();
-  void finish();
+  void step();
+  void drive(int direction, AxisParameter speed, State state);
+  void halt(State state);
+  void set_origin();
   bool is_on_switch();
   bool is_at_limit(int direction);
-  void step();
+  bool has_reached(bool switch_active, int direction);
 
   Axis& axis_;
   hal::Pins& pins_;
   State state_ = State::idle;
-  std::int8_t mode_ = 1;        ///< 1…8
-  std::int8_t direction_ = -1;  ///< towards the switch
+  std::int8_t mode_ = 1;    ///< 1…8
+  std::int8_t forth_ = -1;  ///< direction in which the switch is approached; back is -forth_
   bool inverts_home_ = false;
-  std::int32_t first_edge_ = 0;  ///< microsteps, positions of before the search
-  std::int32_t other_end_ = 0;
+  std::int32_t first_point_ = 0;   ///< microsteps, as counted before the search
+  std::int32_t second_point_ = 0;  ///< likewise
+  std::int32_t other_end_ = 0;     ///< likewise
 };
 
 }  // namespace opentmcl
