@@ -64,12 +64,15 @@ class VirtualModule::Board {
   struct PinBank final : hal::Pins {
     PinBank(ModuleId m, twin::World& w) : module(m), world(w) {}
     std::uint32_t inputs() override {
-      const auto level_at = [](bool level, hal::InputPin pin) { return level ? bit(pin) : 0; };
-      const bool has_null_line = world.encoder().kind() == twin::ShaftEncoder::Kind::absolute;
-      return (world.inputs() & ~bit(hal::InputPin::stall_guard)) |
-             level_at(world.stall_guard_output(), hal::InputPin::stall_guard) |
-             level_at(world.home_switch(), hal::InputPin::home_switch) |
-             level_at(has_null_line && world.encoder().near_null(), hal::InputPin::encoder_null);
+      std::uint32_t levels = world.inputs() & ~bit(hal::InputPin::stall_guard);
+      if (world.stall_guard_output()) levels |= bit(hal::InputPin::stall_guard);
+      if (world.home_switch()) levels |= bit(hal::InputPin::home_switch);
+      if (module == ModuleId::pd1161) {
+        if (world.encoder().near_null()) levels |= bit(hal::InputPin::encoder_null);
+      } else if ((levels & home_and_in0) != 0) {
+        levels |= home_and_in0;
+      }
+      return levels;
     }
     void set_outputs(std::uint32_t levels) override {
       world.set_outputs(levels);
@@ -77,6 +80,9 @@ class VirtualModule::Board {
       // Those of the TMCM-1110 are soldered in.
       if (module == ModuleId::pd1161) world.set_pull_ups((levels & bit(hal::OutputPin::pull_ups)) != 0);
     }
+    /// One line of the TMCM-1110: the home switch is wired to AIN_0.
+    static constexpr std::uint32_t home_and_in0 = bit(hal::InputPin::home_switch) | bit(hal::InputPin::in0);
+
     ModuleId module;
     twin::World& world;
   };
