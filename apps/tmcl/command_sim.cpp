@@ -38,6 +38,7 @@ struct SimOptions {
   std::string duration;
   std::string eeprom;
   std::string program;
+  std::string machine = "stage";
   bool no_start = false;
   bool quiet = false;
 };
@@ -113,11 +114,19 @@ void introduce(const Context& context, const ModuleDescription& module, const Si
   std::fflush(stdout);
 }
 
+/// Where the slider of a stage stands, from the middle of its travel; nothing for a free shaft.
+std::string describe_machine(const twin::World& world) {
+  constexpr double micrometres = 1000.0;  // in 1 mm
+  if (!world.stage()) return {};
+  return fmt::format("  {:7.2f} mm", static_cast<double>(world.stage()->place_at(world.rotor_angle())) / micrometres);
+}
+
 /// Shows the live line now and from then on.
 class LiveDisplay {
  public:
-  LiveDisplay(asio::io_context& events, server::LiveSimulation& simulation, server::MemoryLine& line)
-      : timer_(events), simulation_(simulation), live_line_(line) {
+  LiveDisplay(asio::io_context& events, server::LiveSimulation& simulation, const twin::World& world,
+              server::MemoryLine& line)
+      : timer_(events), simulation_(simulation), world_(world), live_line_(line) {
     refresh();
   }
 
@@ -125,7 +134,8 @@ class LiveDisplay {
   void refresh() {
     live_line_.ask();
     simulation_.serve(std::chrono::steady_clock::now());
-    if (const std::optional<MotionState> state = live_line_.take_answers()) status_.show(describe(*state));
+    if (const std::optional<MotionState> state = live_line_.take_answers())
+      status_.show(describe(*state) + describe_machine(world_));
     timer_.expires_after(status_.period());
     timer_.async_wait([this](const boost::system::error_code& error) {
       if (!error) refresh();
@@ -134,6 +144,7 @@ class LiveDisplay {
 
   asio::steady_timer timer_;
   server::LiveSimulation& simulation_;
+  const twin::World& world_;
   LiveLine live_line_;
   StatusLine status_;
 };
@@ -178,7 +189,9 @@ Result<void> run_sim(const Context& context, const SimOptions& options) {
   ports.reserve(request_ports.size());
   for (server::RequestPort* port : request_ports) ports.push_back({port, hal::PortKind::usb});
 
-  VirtualModule module(description, ports);
+  VirtualModule::Options board;
+  if (options.machine == "free") board.stage.reset();
+  VirtualModule module(description, ports, board);
   if (eeprom) {
     if (Result<void> loaded = eeprom->load(module); !loaded) return loaded;
   }
@@ -203,7 +216,7 @@ Result<void> run_sim(const Context& context, const SimOptions& options) {
   introduce(context, description, *endpoints);
   simulation->start();
   std::optional<LiveDisplay> display;
-  if (!options.quiet) display.emplace(events, *simulation, line);
+  if (!options.quiet) display.emplace(events, *simulation, module.world(), line);
   simulation->run();
   if (!eeprom || !outcome) return outcome;
   return eeprom->finish(module);
@@ -228,6 +241,11 @@ void add_sim(CLI::App& app, Context& context) {
   command->add_option("--duration", options->duration, "end after this much of the module's time: 5s, 500ms, 2min");
   command->add_option("--eeprom", options->eeprom, "keep the EEPROM in this file; made if it does not exist");
   command->add_option("--program", options->program, "load this TMCL program and start it");
+  command
+      ->add_option("--machine", options->machine,
+                   "what the motor turns: a linear stage of 100 mm with its switches, or a free shaft without end")
+      ->check(CLI::IsMember({"stage", "free"}))
+      ->capture_default_str();
   command->add_flag("--no-start", options->no_start, "do not start the program");
   command->add_flag("-q,--quiet", options->quiet, "no live line");
   command->callback([&context, options] { context.finish(run_sim(context, *options)); });

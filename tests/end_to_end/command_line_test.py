@@ -75,6 +75,12 @@ class WithNothingPluggedIn(CommandLineTest):
     def test_ends_a_program_after_a_duration(self):
         self.expect(0, "run", "--quiet", "--duration", "10s", self.write("p.tmc", ENDLESS))
 
+    def test_simulates_a_stage_or_a_free_shaft(self):
+        source = self.write("p.tmc", "MVP ABS, 0, -25600\nWAIT POS, 0, 0\n")
+        sim = ("sim", "--tcp", "none", "--pty-link", self.path("port"), "--speed", "max", "--duration", "60s", "--program", source)
+        self.assertIn("  -1.00 mm", self.expect(0, *sim).stderr)
+        self.assertNotIn(" mm", self.expect(0, *sim, "--machine", "free").stderr)
+
     def test_has_help_with_examples_for_each_command(self):
         self.assertIn("Examples:", self.expect(0, "--help").stdout)
         for command in "sim asm dis run get set rotate move stop send spec version".split():
@@ -126,7 +132,8 @@ class ExitCodes(CommandLineTest):
     def test_64_for_wrong_usage(self):
         for arguments in ([], ["dance"], ["get"], ["get", "no such parameter"], ["rotate", "99999"], ["--timeout", "soon", "stop"],
                           ["--port", "nowhere", "stop"], ["--port", "sim:tmcm9999", "stop"], ["--port", "tcp://x", "stop"],
-                          ["sim", "tmcm9999"], ["sim", "--speed", "fast"], ["sim", "--duration", "5"], ["send", "DANCE 0"],
+                          ["sim", "tmcm9999"], ["sim", "--speed", "fast"], ["sim", "--duration", "5"], ["sim", "--machine", "wheel"],
+                          ["send", "DANCE 0"],
                           ["send", "1 2"], ["asm", "--module", "x", "y"]):
             self.assertNotEqual("", self.expect(64, *arguments).stderr)
 
