@@ -76,9 +76,8 @@ class WithNothingPluggedIn(CommandLineTest):
         self.expect(0, "run", "--quiet", "--duration", "10s", self.write("p.tmc", ENDLESS))
 
     def test_simulates_a_stage_or_a_free_shaft(self):
-        source = self.write("p.tmc", "MVP ABS, 0, -25600\nWAIT POS, 0, 0\n")
-        sim = ("sim", "--tcp", "none", "--pty-link", self.path("port"), "--speed", "max", "--duration", "60s", "--program", source)
-        self.assertIn("  -1.00 mm", self.expect(0, *sim).stderr)
+        sim = ("sim", "--tcp", "none", "--pty-link", self.path("port"), "--speed", "max", "--duration", "1s")
+        self.assertIn("  0.00 mm", self.expect(0, *sim).stderr)
         self.assertNotIn(" mm", self.expect(0, *sim, "--machine", "free").stderr)
 
     def test_has_help_with_examples_for_each_command(self):
