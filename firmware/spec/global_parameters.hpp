@@ -128,6 +128,15 @@ inline constexpr std::size_t coordinate_count = 21;
 inline constexpr std::int32_t eeprom_lock_code = 1234;
 inline constexpr std::int32_t eeprom_unlock_code = 4321;
 
+/// Baud rates of RS485 by the value of global parameter 65. Source: S0 5.1, 1110 a.3.
+inline constexpr std::uint32_t rs485_baud_rates[] = {9600,  14400,  19200,  28800,  38400,  57600,
+                                                     76800, 115200, 230400, 250000, 500000, 1000000};
+
+/// Bits of global parameter 67. Source: S0 3.4.4.
+inline constexpr std::int32_t start_in_ascii_mode = 0x01;
+inline constexpr std::int32_t echo_lines = 0x10;
+inline constexpr std::int32_t no_echo = 0x20;
+
 /// What the value of commands 137 and 255 must be.
 inline constexpr std::int32_t confirmation_code = 1234;
 

@@ -416,6 +416,21 @@ constexpr KeywordSet keywords_of(OperandKind kind) {
   }
 }
 
+/// A command that can only be typed, in ASCII mode, and what it stands for.
+struct AsciiOnlyCommand {
+  const char* word;
+  Opcode opcode;
+  std::uint8_t type;
+  const char* description;
+  const char* source;
+};
+
+inline constexpr AsciiOnlyCommand ascii_only_commands[] = {
+    {"BIN", Opcode::enter_ascii_mode, 0, "Return to binary mode: what entered the ASCII mode leaves it.", "S0 3.4"},
+    {"RUN", Opcode::run_application, 1, "Start the program at address 0.", "S0 3.4, decision 0017"},
+    {"STOP", Opcode::stop_application, 0, "Stop the program.", "S0 3.4"},
+};
+
 /// Control commands are always executed, also in download mode, and can never be part of a program.
 constexpr bool is_control_command(std::uint8_t opcode) {
   return opcode >= static_cast<std::uint8_t>(Opcode::stop_application);
