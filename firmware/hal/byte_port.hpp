@@ -13,8 +13,13 @@ class BytePort {
   /// `capacity` means that there are no more at present.
   virtual std::size_t read(std::uint8_t* buffer, std::size_t capacity) = 0;
 
-  /// Queues bytes for sending; never waits. A TMCL reply is 9 bytes, so a transmit buffer of 64 is ample.
+  /// Queues bytes for sending; never waits. A TMCL reply is 9 bytes, in ASCII mode up to 19
+  /// after an echo of up to 65: a transmit buffer of 128 is ample.
   virtual void write(const std::uint8_t* data, std::size_t length) = 0;
+
+  /// The firmware expects lines of text from now on, or whole datagrams again. Only for ports that gather the bytes of
+  /// a datagram before they hand it over; a line that passes each byte as it comes need not care.
+  virtual void set_text_mode(bool) {}
 
  protected:
   ~BytePort() = default;

@@ -39,11 +39,22 @@ bool Module::start(Microseconds now) {
   executor_.reset_tick_timer(now);
   if (is_to_start_program()) program_machine_.run_from(0);
   watch_supply();
+  const bool starts_in_ascii_mode = (global_parameters_[GlobalParameter::ascii_mode] & start_in_ascii_mode) != 0;
   for (std::uint8_t index = 0; index < hal_.port_count; ++index) {
-    lines_end_->bytes = hal_.ports[index].bytes;
-    lines_end_->kind = hal_.ports[index].kind;
-    ++lines_end_;
+    Line& line = *lines_end_++;
+    line.port = hal_.ports[index];
+    line.kind = line.port.kind;
+    set_ascii_mode(line, starts_in_ascii_mode && line.kind != hal::PortKind::rs485);
+    if (line.kind == hal::PortKind::rs485) {
+      line.paused.begin(*line.port.bytes, global_parameters_, parts_due_, others_due_);
+      line.bytes = &line.paused;
+      has_bus_ = true;
+      lines_need_poll_ = true;
+    }
   }
+  rs485_baud_rate_ = rs485_baud_rates[global_parameters_[GlobalParameter::rs485_baud_rate]];
+  note_command(Interface::serial, now);
+  note_command(Interface::can, now);
   return true;
 }
 
@@ -102,17 +113,16 @@ Microseconds Module::poll_all(Microseconds now) {
     if (time < next) next = time;
   };
   needs(reference_search_.poll(now));
+  // Between those that start motion and the axis, which then forgets that motion was started.
+  if (watches_heartbeat()) needs(poll_heartbeats(now));
   if (axis_.is_due(now)) watch_axis(now);
   needs(axis_.due());
   needs(program_memory_.poll(now));
   // Nothing that lifts the protection of a program may be written before the program is gone.
   if (!program_memory_.is_erasing()) needs(store_.poll(now));
-  if (report_line_ != nullptr) {
-    report_position();
-    needs(now + one_millisecond);
-  }
+  if (lines_need_poll_) needs(poll_lines(now));
   if (executor_.wants_restart()) {
-    if (program_memory_.is_erasing() || !store_.is_written() || hal_.eeprom.busy()) {
+    if (program_memory_.is_erasing() || !store_.is_written() || hal_.eeprom.busy() || has_reply_to_send()) {
       needs(now + ParameterStore::poll_period);
     } else if (executor_.take_factory_reset()) {
       store_.restore_factory_settings();
@@ -135,13 +145,80 @@ Microseconds Module::poll_all(Microseconds now) {
 /// Executes the datagram that is complete on a line. @return when the line needs the next turn
 Microseconds Module::serve(Line& line, Microseconds now) {
   Datagram reply;
-  const Handling handling = handle(line.framer.datagram(), line.kind, now, reply);
+  const Handling handling = handle(line.framer.datagram(), line.kind, &line, now, reply);
   if (handling == Handling::busy) return now + ParameterStore::poll_period;
   line.framer.reset();
   if (handling == Handling::answered) line.bytes->write(reply.bytes, datagram_size);
-  if (executor_.take_reported_move()) report_line_ = &line;
+  if (executor_.take_reported_move()) {
+    report_line_ = &line;
+    lines_need_poll_ = true;
+  }
   // There may be more where this came from.
   return now;
+}
+
+/// What lines need now and then: telegram pauses, changes of mode, the second reply of command 138. @return when it
+/// is needed again
+Microseconds Module::poll_lines(Microseconds now) {
+  if (mode_change_ != nullptr) {
+    set_ascii_mode(*mode_change_, !mode_change_->is_in_ascii_mode());
+    mode_change_ = nullptr;
+  }
+  Microseconds next = never;
+  if (report_line_ != nullptr) {
+    report_position();
+    next = now + one_millisecond;
+  }
+  for (Line* line = lines_; line != lines_end_; ++line) {
+    const Microseconds due = line->paused.poll(now);
+    if (due < next) next = due;
+  }
+  lines_need_poll_ = has_bus_ || report_line_ != nullptr;
+  return next;
+}
+
+bool Module::has_reply_to_send() const {
+  for (const Line* line = lines_; line != lines_end_; ++line) {
+    if (line->paused.has_reply()) return true;
+  }
+  return false;
+}
+
+void Module::set_ascii_mode(Line& line, bool ascii) {
+  if (ascii) {
+    line.ascii.begin(line.port, global_parameters_);
+    line.bytes = &line.ascii;
+  } else {
+    line.bytes = line.port.bytes;
+  }
+  line.port.bytes->set_text_mode(ascii);
+}
+
+/// While no command comes for longer than a heartbeat allows the motor is stopped, whatever a program or a reference
+/// search makes of it (docs/decisions/0018-heartbeat.md). @return when it must be called again
+Microseconds Module::poll_heartbeats(Microseconds now) {
+  const std::int32_t serial = global_parameters_[GlobalParameter::serial_heartbeat];
+  const std::int32_t can = global_parameters_[GlobalParameter::can_heartbeat];
+  const Heartbeat& serial_heartbeat = heartbeats_[static_cast<std::size_t>(Interface::serial)];
+  const Heartbeat& can_heartbeat = heartbeats_[static_cast<std::size_t>(Interface::can)];
+  if (serial_heartbeat.is_missing(now, serial) || can_heartbeat.is_missing(now, can)) {
+    hold_motor();
+    heartbeat_missing_ = true;
+    return never;
+  }
+  heartbeat_missing_ = false;
+  const Microseconds serial_due = serial_heartbeat.due(serial);
+  const Microseconds can_due = can_heartbeat.due(can);
+  return serial_due < can_due ? serial_due : can_due;
+}
+
+/// Stops the motor when commands have just stopped coming, and whatever has started it since.
+void Module::hold_motor() {
+  const bool was_started = axis_.is_awake() || reference_search_.is_active();
+  const bool may_still_move = !heartbeat_missing_ && (axis_.actual_velocity() != 0 || axis_.target_velocity() != 0);
+  if (!was_started && !may_still_move) return;
+  reference_search_.abort();
+  axis_.stop();
 }
 
 Module::Recipient Module::recipient_of(std::uint8_t address, hal::PortKind kind) const {
@@ -163,6 +240,11 @@ inline void Module::write_reply(const Command& command, const Outcome& outcome, 
 }
 
 Module::Handling Module::handle(const Datagram& request, hal::PortKind kind, Microseconds now, Datagram& reply) {
+  return handle(request, kind, nullptr, now, reply);
+}
+
+inline Module::Handling Module::handle(const Datagram& request, hal::PortKind kind, Line* line, Microseconds now,
+                                       Datagram& reply) {
   const Recipient recipient = recipient_of(request.bytes[0], kind);
   if (recipient == Recipient::other) return Handling::silent;
   if (!request.checksum_is_right()) {
@@ -171,11 +253,22 @@ Module::Handling Module::handle(const Datagram& request, hal::PortKind kind, Mic
     return Handling::answered;
   }
   const Command command = decode_request(request).command;
-  const Outcome outcome = executor_.execute_direct(command, now);
-  // All commands but those that read may have given the parts something to do.
-  if (outcome.form != Outcome::Form::result) parts_due_ = others_due_ = now;
-  if (outcome.form == Outcome::Form::busy) return Handling::busy;
-  if (outcome.form == Outcome::Form::silent && outcome.status == Status::ok) return Handling::silent;
+  note_command(Interface::serial, now);
+  Outcome outcome = executor_.execute_direct(command, now);
+  if (outcome.form != Outcome::Form::result) {
+    // All commands but those that read may have given the parts something to do.
+    parts_due_ = others_due_ = now;
+    if (outcome.form == Outcome::Form::busy) return Handling::busy;
+    if (outcome.form == Outcome::Form::silent && outcome.status == Status::ok) return Handling::silent;
+    if (outcome.form == Outcome::Form::mode_change) {
+      if (line == nullptr || kind == hal::PortKind::rs485) {
+        outcome.status = Status::command_not_available;
+      } else {
+        mode_change_ = line;
+        lines_need_poll_ = true;
+      }
+    }
+  }
   if (recipient == Recipient::group) return Handling::silent;
   if (global_parameters_[GlobalParameter::suppress_reply] != 0) {
     const auto opcode = static_cast<Opcode>(command.opcode);
@@ -188,7 +281,7 @@ Module::Handling Module::handle(const Datagram& request, hal::PortKind kind, Mic
 /// Second reply of command 138: status 128 and the mask of the motors (PD-1161 manual 3.7.52).
 void Module::report_position() {
   constexpr std::int32_t first_motor = 1;
-  if (!axis_.position_reached()) return;
+  if (report_line_->paused.has_reply() || !axis_.position_reached()) return;
   const Command command{static_cast<std::uint8_t>(Opcode::request_position_reached), 0, 0, 0};
   Datagram report;
   write_reply(command, {Status::position_reached, first_motor, Outcome::Form::normal}, report);

@@ -3,6 +3,9 @@
 #include <cstdint>
 
 #include "firmware/hal/hal.hpp"
+#include "firmware/module/ascii_port.hpp"
+#include "firmware/module/heartbeat.hpp"
+#include "firmware/module/pausing_port.hpp"
 #include "firmware/motion/axis.hpp"
 #include "firmware/motion/reference_search.hpp"
 #include "firmware/motion/supply_monitor.hpp"
@@ -61,14 +64,26 @@ class Module {
   /// Command 255 was executed and its reply sent: the board is to restart the module as at power-on.
   bool restart_requested() const { return restart_requested_; }
 
+  /// Baud rate of RS485 in bit/s, as global parameter 65 was when the module started: a change needs a restart. 0 until
+  /// the turn that starts the module.
+  std::uint32_t rs485_baud_rate() const { return rs485_baud_rate_; }
+
+  /// Where commands come from, as the heartbeats (global parameters 68 and 82) tell them apart.
+  enum class Interface : std::uint8_t { serial, can };
+
   const ModuleDescription& description() const { return description_; }
 
  private:
   /// A port and what has come from it: less than a datagram, or one that is to be executed.
   struct Line {
-    hal::BytePort* bytes = nullptr;
+    hal::BytePort* bytes = nullptr;  ///< the port itself, `ascii` in ASCII mode, or `paused` on RS485
     hal::PortKind kind = hal::PortKind::usb;
     Framer framer;
+    hal::Port port{};
+    AsciiPort ascii;
+    PausingPort paused;
+
+    bool is_in_ascii_mode() const { return bytes == &ascii; }
   };
   static constexpr std::size_t maximum_lines = 4;
 
@@ -93,7 +108,23 @@ class Module {
   bool is_to_start_program() const;
   void note_axis_events();
   Microseconds serve(Line& line, Microseconds now);
+  /// Inline, for it is called for each datagram. @param line where the datagram came from, if from a line
+  [[gnu::always_inline]] Handling handle(const Datagram& request, hal::PortKind kind, Line* line, Microseconds now,
+                                         Datagram& reply);
+  [[gnu::noinline]] Microseconds poll_lines(Microseconds now);
+  bool has_reply_to_send() const;
+  void set_ascii_mode(Line& line, bool ascii);
   void report_position();
+  /// A valid command for this module came.
+  void note_command(Interface interface, Microseconds now) {
+    heartbeats_[static_cast<std::size_t>(interface)].note(now);
+  }
+  bool watches_heartbeat() const {
+    return (global_parameters_[GlobalParameter::serial_heartbeat] |
+            global_parameters_[GlobalParameter::can_heartbeat]) != 0;
+  }
+  [[gnu::noinline]] Microseconds poll_heartbeats(Microseconds now);
+  void hold_motor();
   Recipient recipient_of(std::uint8_t address, hal::PortKind kind) const;
   void write_reply(const Command& command, const Outcome& outcome, Datagram& reply) const;
   std::uint8_t address_setting(GlobalParameter parameter) const {
@@ -117,6 +148,12 @@ class Module {
   Microseconds parts_due_ = 0;   ///< when poll_parts() is needed unless a command comes before
   Microseconds others_due_ = 0;  ///< when the parts other than the program need it
   bool restart_requested_ = false;
+  bool has_bus_ = false;            ///< there is an RS485 line
+  bool lines_need_poll_ = false;    ///< poll_lines() has something to do
+  bool heartbeat_missing_ = false;  ///< the motor is held until commands come again
+  Heartbeat heartbeats_[2];         ///< by Interface
+  std::uint32_t rs485_baud_rate_ = 0;
+  Line* mode_change_ = nullptr;  ///< the line that is to change between binary and ASCII mode when its reply is sent
   Line* report_line_ = nullptr;  ///< where command 138 came from, while a move is under way whose end is to be reported
 };
 

@@ -91,6 +91,8 @@ class Axis {
   /// longer than its reach. To be called when it is due.
   void poll(Microseconds now);
   bool is_due(Microseconds now) const { return awake_ || is_look_due(now); }
+  /// A motion command was carried out since the last poll().
+  bool is_awake() const { return awake_; }
   /// Due for a look at motor and surroundings, not only because of a command.
   bool is_look_due(Microseconds now) const { return now >= next_look_; }
   /// When it is next due, if there is no command before.

@@ -84,7 +84,7 @@ constexpr Binding bindings[] = {
     {Opcode::get_firmware_version, Handlers::get_firmware_version},
     {Opcode::restore_factory_settings, Handlers::restore_factory_settings},
     {Opcode::request_position_reached, Handlers::request_position_reached},
-    {Opcode::enter_ascii_mode, Handlers::not_available},
+    {Opcode::enter_ascii_mode, Handlers::enter_ascii_mode},
     {Opcode::get_information, Handlers::not_available},
     {Opcode::software_reset, Handlers::software_reset},
 };

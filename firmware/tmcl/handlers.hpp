@@ -80,6 +80,7 @@ struct Handlers {
   static Outcome get_firmware_version(Executor& executor, const Command& command);
   static Outcome restore_factory_settings(Executor& executor, const Command& command);
   static Outcome request_position_reached(Executor& executor, const Command& command);
+  static Outcome enter_ascii_mode(Executor& executor, const Command& command);
   static Outcome software_reset(Executor& executor, const Command& command);
 
   /// UF0 to UF7: what the board makes of them.

@@ -158,6 +158,11 @@ Outcome Handlers::request_position_reached(Executor& executor, const Command& co
   return done(command);
 }
 
+/// The line it came from is the module's affair, which also knows whether that line can be text.
+Outcome Handlers::enter_ascii_mode(Executor&, const Command& command) {
+  return {Status::ok, command.value, Outcome::Form::mode_change};
+}
+
 Outcome Handlers::software_reset(Executor& executor, const Command& command) {
   executor.wants_restart_ = true;
   return done(command);

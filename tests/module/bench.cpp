@@ -31,8 +31,9 @@ std::vector<std::uint8_t> Bench::send(const std::vector<std::uint8_t>& bytes) {
 
 std::optional<Datagram> Bench::exchange(const Datagram& request) {
   std::vector<std::uint8_t> bytes = send({request.bytes, request.bytes + datagram_size});
-  // A command that waits for the EEPROM answers when the page writes before it are over.
-  for (int turn = 0; bytes.empty() && turn < 50; ++turn) {
+  // A command that waits for the EEPROM answers when the page writes before it are over, and a telegram pause may
+  // follow.
+  for (int turn = 0; bytes.empty() && turn < 300; ++turn) {
     wait(one_millisecond);
     bytes = port.received;
   }

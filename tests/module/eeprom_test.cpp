@@ -45,9 +45,10 @@ TEST_P(Eeprom, KeepsStoredAxisParametersAndLosesTheOthers) {
 TEST_P(Eeprom, KeepsGlobalParametersWithTheLetterAWithoutBeingTold) {
   Bench bench(description());
   const auto is_special = [](GlobalParameter number) {
-    // Lock and magic change what a restart does; addresses and the mode change who is spoken to.
+    // Lock and magic change what a restart does; addresses and the ASCII mode change how it is spoken to.
     return number == GlobalParameter::eeprom_lock || number == GlobalParameter::eeprom_magic ||
-           number == GlobalParameter::serial_address || number == GlobalParameter::serial_host_address;
+           number == GlobalParameter::serial_address || number == GlobalParameter::serial_host_address ||
+           number == GlobalParameter::ascii_mode;
   };
   for (const GlobalParameterSpec& row : global_parameters) {
     const ParameterColumn& column = row.in(GetParam());
