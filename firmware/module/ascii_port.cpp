@@ -82,8 +82,8 @@ bool AsciiPort::end_line(Datagram& request) {
   length_ = 0;
   if (recipient != Recipient::this_module && recipient != Recipient::group) return false;
   Command command;
-  const std::string_view text(line_, kept);
-  const Status status = fits ? parse_ascii_command(text.substr(1), command) : Status::invalid_command;
+  const std::string_view text(line_ + 1, kept - 1);  // behind the address character
+  const Status status = fits ? parse_ascii_command(text, command) : Status::invalid_command;
   if (status != Status::ok) {
     if (recipient == Recipient::this_module) refuse(status);
     return false;

@@ -132,6 +132,15 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
+// In place of substr(), which would pull in an exception.
+std::string_view first(std::string_view text, std::size_t length) {
+  return {text.data(), length};
+}
+std::string_view behind(std::string_view text, std::size_t length) {
+  text.remove_prefix(length);
+  return text;
+}
+
 template <std::size_t capacity>
 bool matches(std::string_view text, const ShortWord<capacity>& word) {
   if (text.size() > capacity) return false;
@@ -206,7 +215,7 @@ class Operands {
   std::string_view next() {
     std::size_t length = 0;
     while (length < rest_.size() && rest_[length] != ',') ++length;
-    const std::string_view operand = trimmed(rest_.substr(0, length));
+    const std::string_view operand = trimmed(first(rest_, length));
     has_next_ = length < rest_.size();
     rest_.remove_prefix(has_next_ ? length + 1 : length);
     return operand;
@@ -239,11 +248,11 @@ Status parse_ascii_command(std::string_view line, Command& command) {
   const std::string_view text = trimmed(line);
   std::size_t length = 0;
   while (length < text.size() && !is_space(text[length])) ++length;
-  const TypedCommand* const found = find_command(text.substr(0, length));
+  const TypedCommand* const found = find_command(first(text, length));
   if (found == nullptr) return Status::invalid_command;
   command = {static_cast<std::uint8_t>(found->opcode), found->type, 0, 0};
 
-  Operands operands(text.substr(length));
+  Operands operands(behind(text, length));
   Status status = Status::ok;
   std::size_t count = 0;
   bool has_value = false;
