@@ -21,30 +21,47 @@ class ReplySink {
 
 /// The byte port of a virtual module, shared by any number of senders. The firmware reads one whole request at a time
 /// and reads the next one only when it is done with it; so what it writes is for the sender of the request it read
-/// last.
+/// last. In ASCII mode it reads single characters, and what it writes is for the sender of the last of them: senders
+/// that type at the same time share one line.
 class RequestPort final : public hal::BytePort {
  public:
   /// `sender` must forget() itself before it goes away.
   void push(const Datagram& request, ReplySink& sender);
 
+  /// In ASCII mode, and for what came in one piece with a change of mode.
+  void push(std::uint8_t character, ReplySink& sender);
+
+  /// The firmware expects text (ASCII mode), not requests.
+  bool is_in_text_mode() const { return text_mode_; }
+  /// How often that has changed.
+  unsigned mode_changes() const { return mode_changes_; }
+
   /// Drops the sender's requests; a reply that is still to come is dropped too.
   void forget(const ReplySink& sender);
 
-  /// Requests the firmware has not read yet.
-  std::size_t size() const { return requests_.size(); }
+  /// Requests and characters the firmware has not read yet.
+  std::size_t size() const { return entries_.size(); }
 
   std::size_t read(std::uint8_t* buffer, std::size_t capacity) override;
   void write(const std::uint8_t* data, std::size_t length) override;
+  void set_text_mode(bool text) override {
+    if (text != text_mode_) ++mode_changes_;
+    text_mode_ = text;
+  }
 
  private:
+  /// A request, or a character in the first byte.
   struct Entry {
-    Datagram request;
+    Datagram bytes;
+    std::uint8_t size;
     ReplySink* sender;
   };
 
-  std::deque<Entry> requests_;
+  std::deque<Entry> entries_;
   std::size_t offset_ = 0;        // bytes of the first entry that have been read
-  ReplySink* current_ = nullptr;  // sender of the request that was read last
+  ReplySink* current_ = nullptr;  // sender of the entry that was read last
+  bool text_mode_ = false;
+  unsigned mode_changes_ = 0;
 };
 
 }  // namespace opentmcl::server

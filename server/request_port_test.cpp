@@ -51,6 +51,28 @@ TEST_F(RequestPortTest, SendsEachReplyToTheOneWhoAsked) {
   EXPECT_EQ(std::vector<std::uint8_t>{22}, second.received);
 }
 
+TEST_F(RequestPortTest, PassesCharactersOneByOne) {
+  port.push(std::uint8_t{'A'}, first);
+  port.push(std::uint8_t{'B'}, second);
+  EXPECT_EQ(2u, port.size());
+  std::uint8_t buffer[16] = {};
+  EXPECT_EQ(1u, port.read(buffer, sizeof buffer));
+  EXPECT_EQ('A', buffer[0]);
+  answer(11);
+  EXPECT_EQ(1u, port.read(buffer, sizeof buffer));
+  EXPECT_EQ('B', buffer[0]);
+  answer(22);
+  EXPECT_EQ(0u, port.read(buffer, sizeof buffer));
+  EXPECT_EQ(std::vector<std::uint8_t>{11}, first.received);
+  EXPECT_EQ(std::vector<std::uint8_t>{22}, second.received);
+}
+
+TEST_F(RequestPortTest, KnowsWhatTheFirmwareExpects) {
+  EXPECT_FALSE(port.is_in_text_mode());
+  static_cast<hal::BytePort&>(port).set_text_mode(true);
+  EXPECT_TRUE(port.is_in_text_mode());
+}
+
 TEST_F(RequestPortTest, SendsALateReplyToTheOneWhoAskedThoughAnotherRequestWaits) {
   port.push(request(1), first);
   read_opcode();

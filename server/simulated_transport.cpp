@@ -25,15 +25,14 @@ SimulatedTransport::SimulatedTransport(VirtualModule& module, MemoryLine& line, 
 SimulatedTransport::~SimulatedTransport() = default;
 
 client::Result<void> SimulatedTransport::send(std::span<const std::uint8_t> bytes) {
-  for (const std::uint8_t byte : bytes) {
-    if (framer_.push(byte, module_.now())) line_.send(framer_.datagram());
-  }
+  cutter_.take(bytes, module_.now(), line_.port(), line_);
   return {};
 }
 
 void SimulatedTransport::take_turn() {
   module_.wake();
   module_.advance_to(module_.now());
+  cutter_.take_rest(line_.port(), line_);
 }
 
 client::Result<std::size_t> SimulatedTransport::receive(std::span<std::uint8_t> buffer, client::Duration limit) {

@@ -5,8 +5,8 @@
 
 #include "boards/twin/virtual_module.hpp"
 #include "client/transport.hpp"
-#include "firmware/wire/framer.hpp"
 #include "server/memory_line.hpp"
+#include "server/request_cutter.hpp"
 
 namespace opentmcl::server {
 
@@ -36,7 +36,7 @@ class SimulatedTransport final : public client::Transport {
   VirtualModule& module_;
   MemoryLine& line_;
   std::string name_;
-  Framer framer_;
+  RequestCutter cutter_;
 };
 
 }  // namespace opentmcl::server

@@ -44,6 +44,19 @@ TEST_F(SimulatedTransportTest, TakesAProgramAndGivesItBack) {
   EXPECT_EQ(350, client.axis_parameter(AxisParameter::target_speed).value());
 }
 
+TEST_F(SimulatedTransportTest, SpeaksTextInAsciiMode) {
+  const auto say = [this](const std::string& text) {
+    EXPECT_TRUE(transport.send(std::vector<std::uint8_t>(text.begin(), text.end())).ok());
+    std::uint8_t buffer[64];
+    return std::string(buffer, buffer + transport.receive(buffer, 100ms).value());
+  };
+  ASSERT_TRUE(client.execute({static_cast<std::uint8_t>(Opcode::enter_ascii_mode), 0, 0, 0}).ok());
+  EXPECT_EQ("A", say("A"));
+  EXPECT_EQ("GAP 140, 0\rBA 100 8\r", say("GAP 140, 0\r"));
+  EXPECT_EQ("ABIN\rBA 100 0\r", say("ABIN\r"));
+  EXPECT_EQ(8, client.axis_parameter(AxisParameter::microstep_resolution).value());
+}
+
 TEST_F(SimulatedTransportTest, WaitsInVainForAsLongAsItWasTold) {
   std::uint8_t buffer[9];
   const client::Duration before = transport.now();

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "firmware/wire/framer.hpp"
 #include "server/pace.hpp"
+#include "server/request_cutter.hpp"
 #include "server/request_port.hpp"
 
 namespace opentmcl::server {
@@ -72,14 +72,10 @@ class StreamLine final : public ReplySink, public std::enable_shared_from_this<S
     const WallTime wall = clock_();
     const auto now = static_cast<Microseconds>(
         std::chrono::duration_cast<std::chrono::microseconds>(wall.time_since_epoch()).count());
-    bool complete = false;
-    for (std::size_t i = 0; i < count; ++i) {
-      if (framer_.push(received_[i], now)) {
-        port_->push(framer_.datagram(), *this);
-        complete = true;
-      }
+    if (cutter_.take({received_.data(), count}, now, *port_, *this)) {
+      requests_arrived_(wall);
+      if (cutter_.take_rest(*port_, *this)) requests_arrived_(wall);
     }
-    if (complete) requests_arrived_(wall);
     // A host that does not read its replies may not send more either.
     if (unsent_.empty()) {
       read();
@@ -113,7 +109,7 @@ class StreamLine final : public ReplySink, public std::enable_shared_from_this<S
   std::shared_ptr<RequestPort> port_;
   RequestsArrived requests_arrived_;
   WallClock clock_;
-  Framer framer_;
+  RequestCutter cutter_;
   std::array<std::uint8_t, 4096> received_{};
   std::vector<std::uint8_t> unsent_;  // replies the host has not made room for yet
   bool reading_ = true;
