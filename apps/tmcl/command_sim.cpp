@@ -11,7 +11,7 @@
 
 #include "apps/tmcl/commands.hpp"
 #include "apps/tmcl/context.hpp"
-#include "apps/tmcl/live_line.hpp"
+#include "apps/tmcl/motion_state.hpp"
 #include "apps/tmcl/quantity.hpp"
 #include "apps/tmcl/sim_endpoints.hpp"
 #include "apps/tmcl/source_program.hpp"
@@ -91,6 +91,15 @@ class KeptEeprom {
 Result<void> load_program(VirtualModule& module, server::MemoryLine& line, const std::vector<Command>& commands,
                           bool start) {
   server::SimulatedTransport transport(module, line, "the virtual module");
+  module.advance_to(module.now());
+  if (line.port().is_in_text_mode()) {
+    // The module starts in ASCII mode (global parameter 67); programs are loaded in binary mode.
+    constexpr std::uint8_t leave_ascii_mode[] = {'A', 'B', 'I', 'N', '\r'};
+    if (Result<void> sent = transport.send(leave_ascii_mode); !sent) return sent;
+    module.wake();
+    module.advance_to(module.now() + one_millisecond);
+    transport.drain();
+  }
   client::Client client(transport);
   const auto keep_going = [](std::size_t, std::size_t) { return true; };
   if (Result<void> loaded = client::download(client, commands, 0, keep_going); !loaded) return loaded;
@@ -121,21 +130,18 @@ std::string describe_machine(const twin::World& world) {
   return fmt::format("  {:7.2f} mm", static_cast<double>(world.stage()->place_at(world.rotor_angle())) / micrometres);
 }
 
-/// Shows the live line now and from then on.
+/// Shows what the module does, now and from then on.
 class LiveDisplay {
  public:
-  LiveDisplay(asio::io_context& events, server::LiveSimulation& simulation, const twin::World& world,
-              server::MemoryLine& line)
-      : timer_(events), simulation_(simulation), world_(world), live_line_(line) {
+  LiveDisplay(asio::io_context& events, server::LiveSimulation& simulation, VirtualModule& module)
+      : timer_(events), simulation_(simulation), module_(module) {
     refresh();
   }
 
  private:
   void refresh() {
-    live_line_.ask();
     simulation_.serve(std::chrono::steady_clock::now());
-    if (const std::optional<MotionState> state = live_line_.take_answers())
-      status_.show(describe(*state) + describe_machine(world_));
+    status_.show(describe(motion_state_of(module_)) + describe_machine(module_.world()));
     timer_.expires_after(status_.period());
     timer_.async_wait([this](const boost::system::error_code& error) {
       if (!error) refresh();
@@ -144,8 +150,7 @@ class LiveDisplay {
 
   asio::steady_timer timer_;
   server::LiveSimulation& simulation_;
-  const twin::World& world_;
-  LiveLine live_line_;
+  VirtualModule& module_;
   StatusLine status_;
 };
 
@@ -216,7 +221,7 @@ Result<void> run_sim(const Context& context, const SimOptions& options) {
   introduce(context, description, *endpoints);
   simulation->start();
   std::optional<LiveDisplay> display;
-  if (!options.quiet) display.emplace(events, *simulation, module.world(), line);
+  if (!options.quiet) display.emplace(events, *simulation, module);
   simulation->run();
   if (!eeprom || !outcome) return outcome;
   return eeprom->finish(module);

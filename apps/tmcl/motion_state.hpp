@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "boards/twin/virtual_module.hpp"
 #include "client/client.hpp"
 
 namespace opentmcl::app {
@@ -15,6 +16,9 @@ struct MotionState {
   std::int32_t pulse_divisor = 0;         ///< axis parameter 154
   client::ProgramStatus::State program = client::ProgramStatus::State::stopped;
 };
+
+/// What a virtual module is doing, seen from outside: it does not notice.
+MotionState motion_state_of(VirtualModule& module);
 
 /// "position -1234567  speed 1000 = 35.76 rpm  program running"
 std::string describe(const MotionState& state);

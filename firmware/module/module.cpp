@@ -253,7 +253,7 @@ inline Module::Handling Module::handle(const Datagram& request, hal::PortKind ki
     return Handling::answered;
   }
   const Command command = decode_request(request).command;
-  note_command(Interface::serial, now);
+  if (line != nullptr) note_command(Interface::serial, now);
   Outcome outcome = executor_.execute_direct(command, now);
   if (outcome.form != Outcome::Form::result) {
     // All commands but those that read may have given the parts something to do.
@@ -276,6 +276,11 @@ inline Module::Handling Module::handle(const Datagram& request, hal::PortKind ki
   }
   write_reply(command, outcome, reply);
   return Handling::answered;
+}
+
+Module::Snapshot Module::snapshot() {
+  return {axis_.position(), axis_.actual_velocity(), axis_.settings()[AxisParameter::microstep_resolution],
+          axis_.settings()[AxisParameter::pulse_divisor], program_machine_.mode()};
 }
 
 /// Second reply of command 138: status 128 and the mask of the motors (PD-1161 manual 3.7.52).

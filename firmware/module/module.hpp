@@ -58,7 +58,8 @@ class Module {
     busy,      ///< the command waits for the EEPROM: try the same datagram again on a later turn
   };
 
-  /// Executes one datagram in direct mode.
+  /// Executes one datagram in direct mode. It comes from no port: it does not count for the heartbeat, and command 139
+  /// is not available.
   Handling handle(const Datagram& request, hal::PortKind kind, Microseconds now, Datagram& reply);
 
   /// Command 255 was executed and its reply sent: the board is to restart the module as at power-on.
@@ -70,6 +71,18 @@ class Module {
 
   /// Where commands come from, as the heartbeats (global parameters 68 and 82) tell them apart.
   enum class Interface : std::uint8_t { serial, can };
+
+  /// What a display shows of the module.
+  struct Snapshot {
+    std::int32_t position;              ///< microsteps
+    std::int32_t velocity;              ///< internal units
+    std::int32_t microstep_resolution;  ///< axis parameter 140
+    std::int32_t pulse_divisor;         ///< axis parameter 154
+    ProgramMachine::Mode program;
+  };
+
+  /// Looks without a command: that would count for the heartbeat, and be stored in a program that is being downloaded.
+  Snapshot snapshot();
 
   const ModuleDescription& description() const { return description_; }
 
