@@ -8,8 +8,8 @@ namespace {
 
 using WallMicroseconds = std::chrono::duration<double, std::micro>;
 
-/// Farther away than anybody waits, and still a valid time point.
-constexpr double longest_wait = 1e15;
+/// Farther away than anybody waits, and still a valid time point: 30 years in ns.
+constexpr double longest_wait = 1e18;
 
 }  // namespace
 
@@ -27,10 +27,10 @@ Microseconds Pace::simulated_at(WallTime wall) const {
 WallTime Pace::wall_at(Microseconds simulated) const {
   if (simulated == never) return WallTime::max();
   if (is_maximum() || simulated <= simulated_) return wall_;
-  // Rounded up: at that wall time simulated_at() is really there.
-  const double wait = std::ceil(static_cast<double>(simulated - simulated_) / speed_ * 1000) / 1000 + 0.001;
+  // Rounded up, in whole nanoseconds: at that wall time simulated_at() is really there.
+  const double wait = std::ceil(static_cast<double>(simulated - simulated_) / speed_ * 1000) + 1;
   if (wait > longest_wait) return WallTime::max();
-  return wall_ + std::chrono::duration_cast<WallTime::duration>(WallMicroseconds(wait));
+  return wall_ + std::chrono::nanoseconds(std::llround(wait));
 }
 
 }  // namespace opentmcl::server

@@ -33,6 +33,12 @@ TEST(Pace, NeverWaitsForNever) {
   EXPECT_EQ(WallTime::max(), pace.wall_at(never - 1));
 }
 
+TEST(Pace, IsThereThoughTheWaitIsNoRoundNumberOfMicroseconds) {
+  Pace pace(1000);
+  pace.anchor(start, 1000);
+  EXPECT_GE(pace.simulated_at(pace.wall_at(131'073'028)), 131'073'028U);
+}
+
 RC_GTEST_PROP(Pace, IsThereWhenItSaidItWouldBe, ()) {
   const double speed = *rc::gen::element(0.01, 0.1, 1.0, 3.0, 10.0, 1000.0);
   const auto target = *rc::gen::inRange<Microseconds>(1000, 10'000'000'000);
