@@ -134,6 +134,25 @@ TEST_P(MotorCurrent, ObeysDelaysThatAreSetWhileTheModuleSleeps) {
   EXPECT_EQ(driver(bench).current_scale(), standby_scale);
 }
 
+TEST_P(MotorCurrent, IsTheStandbyCurrentWhileALimitSwitchHoldsTheMotorIfParameter150SaysSo) {
+  for (const bool by_position : {false, true}) {
+    bench.set(AxisParameter::end_switch_power_down, 0);
+    bench.set(AxisParameter::right_limit_switch_disable, 0);
+    bench.module.world().set_right_switch(true);
+    bench.command(by_position ? Opcode::mvp : Opcode::ror, by_position ? 1 : 0, 0, 500);
+    wait_ms(1'000);
+    EXPECT_EQ(driver(bench).current_scale(), run_scale) << "0: stay at run current";
+    bench.set(AxisParameter::end_switch_power_down, 1);
+    wait_ms(50);
+    EXPECT_EQ(driver(bench).current_scale(), run_scale) << "within the delay";
+    wait_ms(100);
+    EXPECT_EQ(driver(bench).current_scale(), standby_scale);
+    bench.module.world().set_right_switch(false);
+    wait_ms(30);
+    EXPECT_EQ(driver(bench).current_scale(), run_scale) << "it moves on";
+  }
+}
+
 struct BoostCurrent : testing::Test {
   Bench bench{pd1161};
 };
@@ -165,28 +184,6 @@ TEST_F(BoostCurrent, DoesNotHeatAMotorThatALimitSwitchHolds) {
   bench.command(Opcode::ror, 0, 0, 500);
   bench.wait(100 * one_millisecond);
   EXPECT_EQ(driver(bench).current_scale(), run_scale);
-}
-
-TEST(EndSwitchPowerDown, UsesTheStandbyCurrentWhileALimitSwitchHoldsTheMotor) {
-  for (const bool by_position : {false, true}) {
-    Bench bench(pd1161);
-    bench.set(AxisParameter::maximum_current, run_current);
-    bench.set(AxisParameter::standby_current, standby_current);
-    bench.set(AxisParameter::power_down_delay, 10);
-    bench.set(AxisParameter::right_limit_switch_disable, 0);
-    bench.module.world().set_right_switch(true);
-    bench.command(by_position ? Opcode::mvp : Opcode::ror, 0, 0, 500);
-    bench.wait(1'000 * one_millisecond);
-    EXPECT_EQ(driver(bench).current_scale(), run_scale) << "0: stay at run current";
-    bench.set(AxisParameter::end_switch_power_down, 1);
-    bench.wait(50 * one_millisecond);
-    EXPECT_EQ(driver(bench).current_scale(), run_scale) << "within the delay";
-    bench.wait(100 * one_millisecond);
-    EXPECT_EQ(driver(bench).current_scale(), standby_scale);
-    bench.module.world().set_right_switch(false);
-    bench.wait(30 * one_millisecond);
-    EXPECT_EQ(driver(bench).current_scale(), run_scale) << "it moves on";
-  }
 }
 
 /// Steps come from the step/direction connector, not from the ramp generator.

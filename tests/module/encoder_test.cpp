@@ -64,6 +64,56 @@ TEST_P(Encoder, LosesItsPositionWithThePowerAndKeepsNothingElseOfIt) {
   EXPECT_EQ(encoder(), 0);
 }
 
+/// The encoder with three channels, whose null position is where the shaft starts.
+struct NullChannel : testing::Test {
+  void move_to(std::int32_t position) {
+    bench.command(Opcode::mvp, 0, 0, position);
+    bench.wait_until_reached(60'000 * one_millisecond);
+  }
+
+  Bench bench{tmcm1110};
+};
+
+constexpr std::int32_t clear_on_null = 4;
+constexpr std::int32_t every_time = 8;
+constexpr std::int32_t high_active = 16;
+
+TEST_F(NullChannel, ClearsThePositionAtTheNextPassAndNoOther) {
+  move_to(10'000);
+  bench.set(AxisParameter::encoder_position, 777'777);
+  bench.set(AxisParameter::encoder_prescaler, 25'600 + clear_on_null);
+  move_to(-3'000);
+  EXPECT_NEAR(bench.get(AxisParameter::encoder_position), -3'000, count);
+  EXPECT_EQ(bench.get(AxisParameter::encoder_prescaler), 25'600) << "done";
+  bench.set(AxisParameter::encoder_position, 500'000);
+  move_to(3'000);
+  EXPECT_NEAR(bench.get(AxisParameter::encoder_position), 506'000, count);
+}
+
+TEST_F(NullChannel, ClearsThePositionWhileNobodyReadsIt) {
+  move_to(10'000);
+  bench.set(AxisParameter::encoder_position, 0);
+  bench.set(AxisParameter::encoder_prescaler, 25'600 + clear_on_null);
+  move_to(2 * turn + 1'000);
+  EXPECT_NEAR(bench.get(AxisParameter::encoder_position), turn + 1'000, count) << "at the first of two passes";
+}
+
+TEST_F(NullChannel, ClearsThePositionAtEveryPassWithBothBits) {
+  bench.set(AxisParameter::encoder_prescaler, 25'600 + clear_on_null + every_time);
+  for (const std::int32_t position : {5'000, -3'000, 2 * turn + 1'000, turn + 500}) {
+    move_to(position);
+    const std::int32_t shown = bench.get(AxisParameter::encoder_position);
+    EXPECT_NEAR(shown, position - (position > 2 * turn ? 2 * turn : position > turn ? 2 * turn : 0), count) << position;
+  }
+}
+
+TEST_F(NullChannel, ClearsInEveryLineWhenToldTheWrongLevel) {
+  bench.set(AxisParameter::encoder_prescaler, 25'600 + clear_on_null + every_time + high_active);
+  constexpr std::int32_t line = 4 * count;
+  move_to(10'000);
+  EXPECT_LT(bench.get(AxisParameter::encoder_position), 2 * line);
+}
+
 struct SensOstep : testing::Test {
   Bench bench{pd1161};
 };
