@@ -21,9 +21,9 @@ class ExtendedModule : public testing::TestWithParam<ModuleId> {
     return options;
   }
 
-  Measurements measurements_;
-  Extensions extensions_ = measurements_.extensions();
-  Bench bench_{modules[static_cast<std::size_t>(GetParam())], hal::PortKind::usb, nullptr, extended_by(extensions_)};
+  Measurements measurements;
+  Extensions extensions = measurements.extensions();
+  Bench bench{modules[static_cast<std::size_t>(GetParam())], hal::PortKind::usb, nullptr, extended_by(extensions)};
 };
 
 INSTANTIATE_TEST_SUITE_P(Both, ExtendedModule, testing::Values(ModuleId::tmcm1110, ModuleId::pd1161),
@@ -31,57 +31,57 @@ INSTANTIATE_TEST_SUITE_P(Both, ExtendedModule, testing::Values(ModuleId::tmcm111
 
 TEST_P(ExtendedModule, HasVariablesInBankOne) {
   for (std::uint8_t n = 0; n < Measurements::count; ++n) {
-    EXPECT_EQ(bench_.command(Opcode::sgp, n, customer_bank, n * 50'000'000).status, Status::ok);
+    EXPECT_EQ(bench.command(Opcode::sgp, n, customer_bank, n * 50'000'000).status, Status::ok);
   }
   for (std::uint8_t n = 0; n < Measurements::count; ++n) {
-    const Reply reply = bench_.command(Opcode::ggp, n, customer_bank);
+    const Reply reply = bench.command(Opcode::ggp, n, customer_bank);
     EXPECT_EQ(reply.status, Status::ok);
     EXPECT_EQ(reply.value, n * 50'000'000);
   }
-  EXPECT_EQ(bench_.command(Opcode::ggp, 0, variables).value, 0) << "they are not the user variables";
+  EXPECT_EQ(bench.command(Opcode::ggp, 0, variables).value, 0) << "they are not the user variables";
 }
 
 TEST_P(ExtendedModule, RefusesVariablesThatDoNotExist) {
-  EXPECT_EQ(bench_.command(Opcode::sgp, Measurements::count, customer_bank, 1).status, Status::wrong_type);
-  EXPECT_EQ(bench_.command(Opcode::ggp, Measurements::count, customer_bank).status, Status::wrong_type);
+  EXPECT_EQ(bench.command(Opcode::sgp, Measurements::count, customer_bank, 1).status, Status::wrong_type);
+  EXPECT_EQ(bench.command(Opcode::ggp, Measurements::count, customer_bank).status, Status::wrong_type);
 }
 
 TEST_P(ExtendedModule, AnswersUserFunctions) {
-  EXPECT_EQ(bench_.command(Opcode::uf2, 3, 5, -7).status, Status::ok);
-  bench_.command(Opcode::sgp, 4, customer_bank, 100);
-  EXPECT_EQ(bench_.command(Opcode::uf0, 0, 31).value, 86);
-  EXPECT_EQ(bench_.command(Opcode::uf1, 3, 5).value, 100);
-  EXPECT_EQ(bench_.command(Opcode::uf1, 3, 3).value, -7);
-  EXPECT_EQ(bench_.command(Opcode::uf0, 5, 3).status, Status::wrong_type);
-  EXPECT_EQ(bench_.command(Opcode::uf0, 0, 32).status, Status::wrong_type);
+  EXPECT_EQ(bench.command(Opcode::uf2, 3, 5, -7).status, Status::ok);
+  bench.command(Opcode::sgp, 4, customer_bank, 100);
+  EXPECT_EQ(bench.command(Opcode::uf0, 0, 31).value, 86);
+  EXPECT_EQ(bench.command(Opcode::uf1, 3, 5).value, 100);
+  EXPECT_EQ(bench.command(Opcode::uf1, 3, 3).value, -7);
+  EXPECT_EQ(bench.command(Opcode::uf0, 5, 3).status, Status::wrong_type);
+  EXPECT_EQ(bench.command(Opcode::uf0, 0, 32).status, Status::wrong_type);
 }
 
 TEST_P(ExtendedModule, RefusesUserFunctionsThatItDoesNotHave) {
   for (const Opcode opcode : {Opcode::uf3, Opcode::uf4, Opcode::uf5, Opcode::uf6, Opcode::uf7}) {
-    EXPECT_EQ(bench_.command(opcode).status, Status::invalid_command) << static_cast<int>(opcode);
+    EXPECT_EQ(bench.command(opcode).status, Status::invalid_command) << static_cast<int>(opcode);
   }
 }
 
 TEST_P(ExtendedModule, GivesAProgramItsResultsInTheAccumulator) {
-  bench_.run_program(
+  bench.run_program(
       "SGP 0, 1, 20\nCALC LOAD, 22\nAGP 1, 1\n"
       "UF0 0, 1, 0\nJC LE, End\nAGP 0, 2\n"  // 42, which is greater than 0
       "UF2 0, 1, -5\nAGP 1, 2\n"             // answers -5, and leaves the accumulator alone
       "UF0 1, 0, 0\nAGP 2, 2\n"              // no range: the program goes on
       "GGP 0, 1\nAGP 3, 2\n"
       "End: STOP\n");
-  bench_.wait(100 * one_millisecond);
-  EXPECT_EQ(bench_.command(Opcode::ggp, 0, variables).value, 42);
-  EXPECT_EQ(bench_.command(Opcode::ggp, 1, variables).value, 42);
-  EXPECT_EQ(bench_.command(Opcode::ggp, 2, variables).value, 42);
-  EXPECT_EQ(bench_.command(Opcode::ggp, 3, variables).value, -5);
+  bench.wait(100 * one_millisecond);
+  EXPECT_EQ(bench.command(Opcode::ggp, 0, variables).value, 42);
+  EXPECT_EQ(bench.command(Opcode::ggp, 1, variables).value, 42);
+  EXPECT_EQ(bench.command(Opcode::ggp, 2, variables).value, 42);
+  EXPECT_EQ(bench.command(Opcode::ggp, 3, variables).value, -5);
 }
 
 TEST_P(ExtendedModule, EndsAProgramAtAUserFunctionThatItDoesNotHave) {
-  bench_.run_program("SGP 0, 2, 1\nUF7 0, 0, 0\nSGP 0, 2, 2\n");
-  bench_.wait(100 * one_millisecond);
-  EXPECT_EQ(bench_.command(Opcode::ggp, 0, variables).value, 1);
-  EXPECT_EQ(bench_.get(GlobalParameter::application_status), 0);
+  bench.run_program("SGP 0, 2, 1\nUF7 0, 0, 0\nSGP 0, 2, 2\n");
+  bench.wait(100 * one_millisecond);
+  EXPECT_EQ(bench.command(Opcode::ggp, 0, variables).value, 1);
+  EXPECT_EQ(bench.get(GlobalParameter::application_status), 0);
 }
 
 /// Is busy until it has been called a number of times.

@@ -44,7 +44,8 @@ TEST(InstructionCache, LetsALoopRunOnWhileAPageIsWritten) {
   }
   EXPECT_GT(busy, 30) << "pages are written nearly all the time";
   const Microseconds loop = 2 * VirtualModule::Options{}.turn;
-  EXPECT_NEAR(variable(bench, 0), static_cast<double>((bench.module.now() - start) / loop), 16);
+  const Microseconds passes = (bench.module.now() - start) / loop;
+  EXPECT_NEAR(variable(bench, 0), static_cast<std::int32_t>(passes), 16);
 }
 
 TEST(InstructionCache, LetsInstructionsThatAreRefusedRunOnToo) {
