@@ -22,7 +22,7 @@ void program(benchmark::State& state) {
   for (auto _ : state) board->module().poll(board->now());
   state.SetItemsProcessed(state.iterations());
 }
-BENCHMARK_TEMPLATE(program, RegisterFileBoard);
+BENCHMARK_TEMPLATE(program, RegisterFileBoard)->UseRealTime();
 
 /// The whole twin: 100 µs of simulated time for each instruction.
 void twin(benchmark::State& state) {
@@ -42,7 +42,7 @@ void twin(benchmark::State& state) {
   for (auto _ : state) module.advance_to(module.now() + stretch);
   state.SetItemsProcessed(state.iterations() * turns);
 }
-BENCHMARK(twin);
+BENCHMARK(twin)->UseRealTime();
 
 }  // namespace
 }  // namespace opentmcl::bench
