@@ -213,7 +213,7 @@ inline constexpr AxisParameterSpec axis_parameters[] = {
      {{Access::rw, 0, 1, 0}, {Access::rw, 0, 1, 0}}, "1: the chopper varies its off time.", "S0 4"},
     {AxisParameter::reference_search_mode, "APReferenceSearchMode", "reference search mode", Unit::none,
      {{Access::rwe, 1, 136, 1}, {Access::rw, 1, 136, 1}},
-     "1 to 8; +64 right instead of left switch, +128 inverts the home switch.", "S0 4, S0 7.1, E-28, E-74"},
+     "1 to 8; +64 right instead of left switch (PD-1161), +128 inverts the home switch.", "S0 4, S0 7.1, E-28, E-74"},
     {AxisParameter::reference_search_speed, "APReferenceSearchSpeed", "reference search speed",
      Unit::internal_velocity, {{Access::rwe, 0, spec_detail::speed, 500}, {Access::rw, 0, spec_detail::speed, 500}},
      "Speed of the search until the switch is found.", "S0 4"},

@@ -105,6 +105,7 @@ bool can_succeed(int mode, std::int32_t from) {
 TEST(ReferenceSearch, FindsTheOriginOfEveryModeOnBothModulesFromEverywhere) {
   for (const ModuleDescription* description : {&pd1161, &tmcm1110}) {
     for (const int mode : {1, 2, 3, 4, 5, 6, 7, 8, 65, 66, 67, 68}) {
+      if (mode > 64 && description != &pd1161) continue;
       // On a limit switch, on the home switch, and in between.
       for (const std::int32_t from : {-48'500, -30'000, -10'000, 15'000, 48'005}) {
         if (!can_succeed(mode, from)) continue;
@@ -137,12 +138,12 @@ TEST(ReferenceSearch, FindsTheSamePlaceFromAnyStartAtAnySpeedEvenWhenItOvershoot
     RC_PRE(can_succeed(mode, from));
     const auto fast = *rc::gen::inRange(400, 2048);
     const auto slow = *rc::gen::inRange(20, 400);
-    Homing bench(**rc::gen::element(&pd1161, &tmcm1110), from);
+    const bool uses_right = right && mode <= 4;
+    Homing bench(uses_right ? pd1161 : **rc::gen::element(&pd1161, &tmcm1110), from);
     // At top speed the motor needs 6 mm to stop: through a switch of 1 mm, and into the end 2 mm behind it.
     bench.set(AxisParameter::maximum_acceleration, *rc::gen::element(100, 200, 2047));
     bench.set(AxisParameter::reference_search_speed, fast);
     bench.set(AxisParameter::reference_switch_speed, slow);
-    const bool uses_right = right && mode <= 4;
     bench.start_search(mode + (uses_right ? 64 : 0));
     RC_ASSERT(bench.finish().back() == 0);
     const std::int64_t error = bench.place() - (uses_right ? -1 : 1) * angle_of(origin_of(mode));
