@@ -29,6 +29,7 @@ struct Registers {
   std::uint32_t encoder_count;
   std::uint32_t encoder_null_status[2];  ///< an event was seen: N low active, high active; reading clears it
   std::uint32_t encoder_null_count;
+  std::uint32_t can_bit_rate;
   std::uint32_t can_status;  ///< a frame was received
   std::uint32_t can_id;      ///< bit 31: 29-bit identifier
   std::uint32_t can_length;
@@ -118,6 +119,8 @@ class Encoder final : public hal::Encoder {
 
 class Can final : public hal::CanPort {
  public:
+  void join(std::uint32_t bit_rate) override { board_registers.can_bit_rate = bit_rate; }
+
   bool read(hal::CanFrame& frame) override {
     if (board_registers.can_status == 0) return false;
     const std::uint32_t id = board_registers.can_id;

@@ -26,15 +26,15 @@ constexpr twin::ShaftEncoder::Kind encoder_of(ModuleId module) {
 /// firmware/hal on the models of the world: one small adapter for each device.
 class VirtualModule::Board {
  public:
-  explicit Board(ModuleId module, twin::World& world, const std::vector<hal::Port>& ports)
+  Board(ModuleId module, twin::World& world, const std::vector<hal::Port>& ports, hal::CanPort* can)
       : tmc429_(world),
         tmc262_(world),
         eeprom_(world),
         pins_(module, world),
         analog_(world),
         encoder_(world),
-        hal{tmc429_, tmc262_,  eeprom_,      pins_,
-            analog_, encoder_, ports.data(), static_cast<std::uint8_t>(ports.size())} {}
+        hal{tmc429_, tmc262_, eeprom_, pins_, analog_, encoder_, ports.data(), static_cast<std::uint8_t>(ports.size()),
+            can} {}
 
  private:
   struct MotionController final : hal::SpiDevice {
@@ -141,7 +141,7 @@ VirtualModule::VirtualModule(const ModuleDescription& description, std::vector<h
       options_(options),
       world_(observer, {options.stage, twin::ShaftEncoder(encoder_of(description.id))}),
       ports_(std::move(ports)),
-      board_(std::make_unique<Board>(description.id, world_, ports_)) {
+      board_(std::make_unique<Board>(description.id, world_, ports_, options_.can)) {
   restart();
 }
 

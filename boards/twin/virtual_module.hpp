@@ -26,6 +26,8 @@ class VirtualModule {
     const Extensions* extensions = nullptr;
     /// The machine on the shaft; std::nullopt: a free shaft without ends and switches.
     std::optional<twin::LinearStageDimensions> stage = twin::LinearStageDimensions{};
+    /// The module's end of a CAN bus, or none; must outlive the module. A PD-1161 does not look at it.
+    hal::CanPort* can = nullptr;
   };
 
   /// @param ports at most 4; what they point to must outlive the module

@@ -16,6 +16,10 @@ struct CanFrame {
 /// and a queue for each direction.
 class CanPort {
  public:
+  /// Joins the bus, or leaves it and joins it again at another speed. Called before the first read() and write().
+  /// @param bit_rate bit/s
+  virtual void join(std::uint32_t bit_rate) = 0;
+
   /// Takes the oldest frame received; never waits. @return false when there is none
   virtual bool read(CanFrame& frame) = 0;
 

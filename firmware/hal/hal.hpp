@@ -19,6 +19,7 @@ enum class PortKind : std::uint8_t {
   usb,    ///< point to point: the address byte of a request is ignored
   rs232,  ///< point to point, but addressed as on RS485
   rs485,  ///< a bus: silence when the request is for another address
+  can,    ///< frames whose identifiers were compared already: Hal::can, never a byte port of a board
 };
 
 struct Port {

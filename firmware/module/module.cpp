@@ -13,7 +13,8 @@ Module::Module(const ModuleDescription& description, const Hal& hal, const Exten
       global_parameters_(description, axis_, store_),
       program_memory_(hal.eeprom, store_, description),
       executor_({description, axis_, reference_search_, axis_parameters_, global_parameters_, program_machine_,
-                 program_memory_, store_, hal.pins, hal.analog, extensions}) {}
+                 program_memory_, store_, hal.pins, hal.analog, extensions}),
+      can_line_(hal.can, global_parameters_) {}
 
 /// Brings everything up, as soon as a page write that a restart interrupted is over. @return whether it is done
 bool Module::start(Microseconds now) {
@@ -39,6 +40,14 @@ bool Module::start(Microseconds now) {
   executor_.reset_tick_timer(now);
   if (is_to_start_program()) program_machine_.run_from(0);
   watch_supply();
+  open_lines();
+  rs485_baud_rate_ = rs485_baud_rates[global_parameters_[GlobalParameter::rs485_baud_rate]];
+  note_command(Interface::serial, now);
+  note_command(Interface::can, now);
+  return true;
+}
+
+void Module::open_lines() {
   const bool starts_in_ascii_mode = (global_parameters_[GlobalParameter::ascii_mode] & start_in_ascii_mode) != 0;
   for (std::uint8_t index = 0; index < hal_.port_count; ++index) {
     Line& line = *lines_end_++;
@@ -52,10 +61,12 @@ bool Module::start(Microseconds now) {
       lines_need_poll_ = true;
     }
   }
-  rs485_baud_rate_ = rs485_baud_rates[global_parameters_[GlobalParameter::rs485_baud_rate]];
-  note_command(Interface::serial, now);
-  note_command(Interface::can, now);
-  return true;
+  if (hal_.can != nullptr && has_can(description_.id)) {
+    can_line_.join();
+    Line& line = *lines_end_++;
+    line.kind = hal::PortKind::can;
+    line.bytes = &can_line_;
+  }
 }
 
 bool Module::is_to_start_program() const {
@@ -221,22 +232,25 @@ void Module::hold_motor() {
   axis_.stop();
 }
 
-Module::Recipient Module::recipient_of(std::uint8_t address, hal::PortKind kind) const {
-  if (kind == hal::PortKind::usb) return Recipient::this_module;
+Module::Recipient Module::recipient_on_bus(std::uint8_t address, hal::PortKind kind) const {
+  if (kind == hal::PortKind::can) {
+    return address == CanLine::to_group ? Recipient::group : Recipient::this_module_on_can;
+  }
   if (address == address_setting(GlobalParameter::serial_address)) return Recipient::this_module;
   const std::uint8_t group = address_setting(GlobalParameter::serial_secondary_address);
   return group != 0 && address == group ? Recipient::group : Recipient::other;
 }
 
-inline void Module::write_reply(const Command& command, const Outcome& outcome, Datagram& reply) const {
+inline void Module::write_reply(const Command& command, const Outcome& outcome, GlobalParameter own_address,
+                                Datagram& reply) const {
   const std::uint8_t host = address_setting(GlobalParameter::serial_host_address);
   if (outcome.form == Outcome::Form::special) {
     reply.bytes[0] = host;
     for (std::size_t i = 0; i + 1 < datagram_size; ++i) reply.bytes[i + 1] = executor_.special_reply()[i];
     return;
   }
-  encode(Reply{host, address_setting(GlobalParameter::serial_address), outcome.status, command.opcode, outcome.value},
-         reply);
+  // Of a CAN identifier the low byte.
+  encode(Reply{host, address_setting(own_address), outcome.status, command.opcode, outcome.value}, reply);
 }
 
 Module::Handling Module::handle(const Datagram& request, hal::PortKind kind, Microseconds now, Datagram& reply) {
@@ -245,15 +259,16 @@ Module::Handling Module::handle(const Datagram& request, hal::PortKind kind, Mic
 
 inline Module::Handling Module::handle(const Datagram& request, hal::PortKind kind, Line* line, Microseconds now,
                                        Datagram& reply) {
-  const Recipient recipient = recipient_of(request.bytes[0], kind);
+  const Recipient recipient =
+      kind == hal::PortKind::usb ? Recipient::this_module : recipient_on_bus(request.bytes[0], kind);
   if (recipient == Recipient::other) return Handling::silent;
   if (!request.checksum_is_right()) {
     if (recipient == Recipient::group) return Handling::silent;
-    write_reply(Command{}, {Status::wrong_checksum, 0, Outcome::Form::normal}, reply);
+    write_reply(Command{}, {Status::wrong_checksum, 0, Outcome::Form::normal}, GlobalParameter::serial_address, reply);
     return Handling::answered;
   }
   const Command command = decode_request(request).command;
-  if (line != nullptr) note_command(Interface::serial, now);
+  if (line != nullptr) note_command(kind == hal::PortKind::can ? Interface::can : Interface::serial, now);
   Outcome outcome = executor_.execute_direct(command, now);
   if (outcome.form != Outcome::Form::result) {
     // All commands but those that read may have given the parts something to do.
@@ -269,12 +284,16 @@ inline Module::Handling Module::handle(const Datagram& request, hal::PortKind ki
       }
     }
   }
-  if (recipient == Recipient::group) return Handling::silent;
   if (global_parameters_[GlobalParameter::suppress_reply] != 0) {
     const auto opcode = static_cast<Opcode>(command.opcode);
     if (opcode != Opcode::gap && opcode != Opcode::ggp && opcode != Opcode::gio) return Handling::silent;
   }
-  write_reply(command, outcome, reply);
+  if (recipient == Recipient::this_module) {
+    write_reply(command, outcome, GlobalParameter::serial_address, reply);
+    return Handling::answered;
+  }
+  if (recipient == Recipient::group) return Handling::silent;
+  write_reply(command, outcome, GlobalParameter::can_id, reply);
   return Handling::answered;
 }
 
@@ -288,8 +307,10 @@ void Module::report_position() {
   constexpr std::int32_t first_motor = 1;
   if (report_line_->paused.has_reply() || !axis_.position_reached()) return;
   const Command command{static_cast<std::uint8_t>(Opcode::request_position_reached), 0, 0, 0};
+  const GlobalParameter own_address =
+      report_line_->kind == hal::PortKind::can ? GlobalParameter::can_id : GlobalParameter::serial_address;
   Datagram report;
-  write_reply(command, {Status::position_reached, first_motor, Outcome::Form::normal}, report);
+  write_reply(command, {Status::position_reached, first_motor, Outcome::Form::normal}, own_address, report);
   report_line_->bytes->write(report.bytes, datagram_size);
   report_line_ = nullptr;
 }

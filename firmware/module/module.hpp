@@ -4,6 +4,7 @@
 
 #include "firmware/hal/hal.hpp"
 #include "firmware/module/ascii_port.hpp"
+#include "firmware/module/can_line.hpp"
 #include "firmware/module/heartbeat.hpp"
 #include "firmware/module/pausing_port.hpp"
 #include "firmware/motion/axis.hpp"
@@ -98,12 +99,13 @@ class Module {
 
     bool is_in_ascii_mode() const { return bytes == &ascii; }
   };
-  static constexpr std::size_t maximum_lines = 4;
+  static constexpr std::size_t maximum_lines = 5;  ///< four byte ports and CAN
 
   /// To whom a datagram is addressed.
-  enum class Recipient : std::uint8_t { other, this_module, group };
+  enum class Recipient : std::uint8_t { other, this_module, this_module_on_can, group };
 
   bool start(Microseconds now);
+  void open_lines();
   /// Takes what is missing of a datagram from a line, so at most one datagram. @return whether it is complete
   static bool receive(Line& line, Microseconds now) {
     // A datagram that waits for the EEPROM has no room left, so nothing is read behind it.
@@ -138,8 +140,9 @@ class Module {
   }
   [[gnu::noinline]] Microseconds poll_heartbeats(Microseconds now);
   void hold_motor();
-  Recipient recipient_of(std::uint8_t address, hal::PortKind kind) const;
-  void write_reply(const Command& command, const Outcome& outcome, Datagram& reply) const;
+  /// Out of line, to keep the way of a datagram over USB short.
+  [[gnu::noinline]] Recipient recipient_on_bus(std::uint8_t address, hal::PortKind kind) const;
+  void write_reply(const Command& command, const Outcome& outcome, GlobalParameter own_address, Datagram& reply) const;
   std::uint8_t address_setting(GlobalParameter parameter) const {
     return static_cast<std::uint8_t>(global_parameters_[parameter]);
   }
@@ -155,6 +158,7 @@ class Module {
   ProgramMemory program_memory_;
   ProgramMachine program_machine_;
   Executor executor_;
+  CanLine can_line_;
   Line lines_[maximum_lines];
   Line* lines_end_ = lines_;  ///< no port is read before the start
   bool started_ = false;

@@ -124,6 +124,10 @@ inline constexpr std::size_t stored_user_variable_count = 56;
 /// Coordinates of SCO, GCO, CCO, ACO and MVP COORD; number 0 lives in RAM only. Source: S0 3.7.24.
 inline constexpr std::size_t coordinate_count = 21;
 
+/// Bit rates of CAN in bit/s by code of global parameter 69. Code 1 is of other modules. Source: 1110 a.3, c.2.
+inline constexpr std::uint32_t can_bit_rates[] = {0,       10'000,  20'000,  50'000,   100'000,
+                                                  125'000, 250'000, 500'000, 1'000'000};
+
 /// The values global parameter 73 takes when written; it reads back 1 or 0.
 inline constexpr std::int32_t eeprom_lock_code = 1234;
 inline constexpr std::int32_t eeprom_unlock_code = 4321;
