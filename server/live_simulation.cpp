@@ -45,11 +45,11 @@ class WakeUp {
 
 }  // namespace
 
-LiveSimulation::LiveSimulation(boost::asio::io_context& events, VirtualModule& module, std::vector<RequestPort*> ports,
-                               Options options, WallClock clock)
+LiveSimulation::LiveSimulation(boost::asio::io_context& events, VirtualModule& module,
+                               std::vector<const RequestQueue*> requests, Options options, WallClock clock)
     : events_(events),
       module_(module),
-      ports_(std::move(ports)),
+      requests_(std::move(requests)),
       options_(options),
       clock_(std::move(clock)),
       pace_(options.speed) {}
@@ -120,7 +120,7 @@ void LiveSimulation::serve(WallTime now) {
 
 std::size_t LiveSimulation::waiting_requests() const {
   std::size_t count = 0;
-  for (const RequestPort* port : ports_) count += port->size();
+  for (const RequestQueue* queue : requests_) count += queue->size();
   return count;
 }
 

@@ -8,7 +8,7 @@
 
 #include "boards/twin/virtual_module.hpp"
 #include "server/pace.hpp"
-#include "server/request_port.hpp"
+#include "server/request_queue.hpp"
 
 namespace boost::asio {
 class io_context;
@@ -34,8 +34,8 @@ class LiveSimulation {
   /// divide requests.
   static constexpr std::chrono::milliseconds longest_slice{2};
 
-  /// @param ports those of the module; everything must outlive this
-  LiveSimulation(boost::asio::io_context& events, VirtualModule& module, std::vector<RequestPort*> ports,
+  /// @param requests those of each port of the module; everything must outlive this
+  LiveSimulation(boost::asio::io_context& events, VirtualModule& module, std::vector<const RequestQueue*> requests,
                  Options options, WallClock clock = std::chrono::steady_clock::now);
 
   /// Handles events and lets time pass until stop() or the end of the duration.
@@ -70,7 +70,7 @@ class LiveSimulation {
 
   boost::asio::io_context& events_;
   VirtualModule& module_;
-  std::vector<RequestPort*> ports_;
+  std::vector<const RequestQueue*> requests_;
   Options options_;
   WallClock clock_;
   Pace pace_;

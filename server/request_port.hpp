@@ -7,6 +7,7 @@
 
 #include "firmware/hal/byte_port.hpp"
 #include "firmware/wire/datagram.hpp"
+#include "server/request_queue.hpp"
 
 namespace opentmcl::server {
 
@@ -23,7 +24,7 @@ class ReplySink {
 /// and reads the next one only when it is done with it; so what it writes is for the sender of the request it read
 /// last. In ASCII mode it reads single characters, and what it writes is for the sender of the last of them: senders
 /// that type at the same time share one line.
-class RequestPort final : public hal::BytePort {
+class RequestPort final : public hal::BytePort, public RequestQueue {
  public:
   /// `sender` must forget() itself before it goes away.
   void push(const Datagram& request, ReplySink& sender);
@@ -40,7 +41,7 @@ class RequestPort final : public hal::BytePort {
   void forget(const ReplySink& sender);
 
   /// Requests and characters the firmware has not read yet.
-  std::size_t size() const { return entries_.size(); }
+  std::size_t size() const override { return entries_.size(); }
 
   std::size_t read(std::uint8_t* buffer, std::size_t capacity) override;
   void write(const std::uint8_t* data, std::size_t length) override;

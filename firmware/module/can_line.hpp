@@ -43,10 +43,4 @@ class CanLine final : public hal::BytePort {
   bool wants_text_ = false;  ///< eight characters, which leave no byte without meaning
 };
 
-/// Only a module that has an identifier for requests listens to CAN.
-inline bool has_can(ModuleId module) {
-  return global_parameter_columns[static_cast<std::size_t>(module)][row_of(GlobalParameter::can_id)].access !=
-         Access::none;
-}
-
 }  // namespace opentmcl

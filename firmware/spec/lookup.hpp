@@ -96,4 +96,10 @@ constexpr std::uint8_t interrupt_row_in(ModuleId module, std::uint8_t number) {
   return row != no_row && contains(interrupt_columns[row].modules, module) ? row : no_row;
 }
 
+/// A module that has no identifier for requests has no CAN.
+constexpr bool has_can(ModuleId module) {
+  return global_parameter_columns[static_cast<std::size_t>(module)][row_of(GlobalParameter::can_id)].access !=
+         Access::none;
+}
+
 }  // namespace opentmcl
