@@ -106,19 +106,39 @@ Result<void> load_program(VirtualModule& module, server::MemoryLine& line, const
   return start ? client.start_program() : Result<void>();
 }
 
+void introduce_as_json(const ModuleDescription& module, const SimEndpoints& endpoints) {
+  fmt::print("{}\n", nlohmann::ordered_json{{"module", module.name},
+                                            {"pty", endpoints.pty_path()},
+                                            {"link", endpoints.link_path()},
+                                            {"port_kind", name_of(endpoints.port_kind())},
+                                            {"tcp", endpoints.tcp_url()},
+                                            {"slcan", endpoints.slcan_path()},
+                                            {"slcan_link", endpoints.slcan_link_path()},
+                                            {"can_udp", endpoints.can_udp_url()},
+                                            {"can", endpoints.can_interface()}}
+                         .dump());
+}
+
+void introduce_as_text(const ModuleDescription& module, const SimEndpoints& endpoints) {
+  fmt::print("Virtual {}, firmware V{}.{:02}. Talk to it at\n", module.name, module.firmware_major,
+             module.firmware_minor);
+  fmt::print("  {}  (serial port as {}, a link to {})\n", endpoints.link_path(), name_of(endpoints.port_kind()),
+             endpoints.pty_path());
+  const auto name = [](const std::string& endpoint, const std::string& remark) {
+    if (!endpoint.empty()) fmt::print("  {}{}\n", endpoint, remark);
+  };
+  name(endpoints.tcp_url(), "");
+  name(endpoints.slcan_link_path(), fmt::format("  (CAN over SLCAN, a link to {})", endpoints.slcan_path()));
+  name(endpoints.can_udp_url(), "  (CAN over UDP multicast as python-can does it)");
+  name(endpoints.can_interface(), "  (CAN interface)");
+  fmt::print("Ctrl-C ends it.\n");
+}
+
 void introduce(const Context& context, const ModuleDescription& module, const SimEndpoints& endpoints) {
   if (context.json) {
-    fmt::print("{}\n", nlohmann::ordered_json{{"module", module.name},
-                                              {"pty", endpoints.pty_path()},
-                                              {"link", endpoints.link_path()},
-                                              {"tcp", endpoints.tcp_url()}}
-                           .dump());
+    introduce_as_json(module, endpoints);
   } else {
-    fmt::print("Virtual {}, firmware V{}.{:02}. Talk to it at\n", module.name, module.firmware_major,
-               module.firmware_minor);
-    fmt::print("  {}  (serial port, a link to {})\n", endpoints.link_path(), endpoints.pty_path());
-    if (!endpoints.tcp_url().empty()) fmt::print("  {}\n", endpoints.tcp_url());
-    fmt::print("Ctrl-C ends it.\n");
+    introduce_as_text(module, endpoints);
   }
   std::fflush(stdout);
 }
@@ -188,14 +208,14 @@ Result<void> run_sim(const Context& context, const SimOptions& options) {
                                                       [&simulation](server::WallTime now) { simulation->serve(now); });
   if (!endpoints) return endpoints.error();
   server::MemoryLine line;
-  std::vector<server::RequestPort*> request_ports = endpoints->ports();
-  request_ports.push_back(&line.port());
-  std::vector<hal::Port> ports;
-  ports.reserve(request_ports.size());
-  for (server::RequestPort* port : request_ports) ports.push_back({port, hal::PortKind::usb});
+  std::vector<const server::RequestQueue*> requests = endpoints->requests();
+  requests.push_back(&line.port());
+  std::vector<hal::Port> ports = endpoints->ports();
+  ports.push_back({&line.port(), hal::PortKind::usb});
 
   VirtualModule::Options board;
   if (options.machine == "free") board.stage.reset();
+  board.can = endpoints->can_port();
   VirtualModule module(description, ports, board);
   if (eeprom) {
     if (Result<void> loaded = eeprom->load(module); !loaded) return loaded;
@@ -204,7 +224,7 @@ Result<void> run_sim(const Context& context, const SimOptions& options) {
     if (Result<void> loaded = load_program(module, line, commands, !options.no_start); !loaded) return loaded;
   }
 
-  simulation.emplace(events, module, request_ports, pace);
+  simulation.emplace(events, module, requests, pace);
   Result<void> outcome;
   if (eeprom) {
     simulation->after_turn([&] {
@@ -231,7 +251,7 @@ Result<void> run_sim(const Context& context, const SimOptions& options) {
 
 void add_sim(CLI::App& app, Context& context) {
   auto options = std::make_shared<SimOptions>();
-  CLI::App* command = app.add_subcommand("sim", "a virtual module on a serial port and a TCP port")->fallthrough();
+  CLI::App* command = app.add_subcommand("sim", "a virtual module on a serial port, a TCP port and CAN")->fallthrough();
   command->footer(
       "Examples:\n  tmcl sim\n  tmcl sim tmcm1110 --program my.tmc --eeprom my.eeprom\n"
       "  tmcl sim --speed max --duration 10min --program my.tmc");
@@ -242,6 +262,15 @@ void add_sim(CLI::App& app, Context& context) {
       "--tcp", options->endpoints.tcp,
       fmt::format("PORT, ADDRESS:PORT or none; default: {} on this machine, or a free port if that is taken",
                   SimEndpoints::default_tcp_port));
+  command
+      ->add_option("--port-kind", options->endpoints.port_kind,
+                   "what the serial port stands for: usb, rs485, or rs232 (pd1161)")
+      ->capture_default_str();
+  command->add_option("--slcan-link", options->endpoints.slcan_link,
+                      "tmcm1110: where to make a link to a serial CAN adapter (SLCAN)");
+  command->add_option("--can-udp", options->endpoints.can_udp,
+                      "tmcm1110: GROUP:PORT of a UDP multicast CAN bus in python-can's format, on this machine only");
+  command->add_option("--can", options->endpoints.can, "tmcm1110: CAN interface of Linux, as vcan0");
   command->add_option("--speed", options->speed, "times real time, or max")->capture_default_str();
   command->add_option("--duration", options->duration, "end after this much of the module's time: 5s, 500ms, 2min");
   command->add_option("--eeprom", options->eeprom, "keep the EEPROM in this file; made if it does not exist");
