@@ -220,6 +220,8 @@ Result<void> run_sim(const Context& context, const SimOptions& options) {
   if (eeprom) {
     if (Result<void> loaded = eeprom->load(module); !loaded) return loaded;
   }
+  // Who hears of the module finds it started, and on its CAN bus.
+  module.advance_to(module.now());
   if (!commands.empty()) {
     if (Result<void> loaded = load_program(module, line, commands, !options.no_start); !loaded) return loaded;
   }
