@@ -127,12 +127,19 @@ TEST_P(TwoModules, OneAnswersWhileTheOtherIsBusyWithItsEeprom) {
   EXPECT_EQ(shared.bus.collisions(), 0U);
 }
 
-TEST_P(TwoModules, ReplyAtOnceWithoutATelegramPause) {
-  for (int round = 0; round < 3; ++round) {
+TEST_P(TwoModules, ReplyAfterATelegramPauseOfTheirOwn) {
+  constexpr unsigned telegram_pause = 75;
+  for (const std::int32_t pause : {0, 1, 15, 255}) {
+    shared.first.over_usb(command(Opcode::sgp, telegram_pause, 0, pause));
     for (const std::uint8_t address : {SharedBus::first_address, SharedBus::second_address}) {
       const Microseconds asked = shared.now();
-      ASSERT_TRUE(shared.exchange(address, command(Opcode::gap, 1)).has_value());
-      EXPECT_LE(shared.now() - asked, 2 * shared.datagram_duration() + 200);
+      ASSERT_TRUE(shared.exchange(address, command(Opcode::gap, 1), 300 * one_millisecond).has_value());
+      const Microseconds answered_after = shared.now() - asked - 2 * shared.datagram_duration();
+      const Microseconds expected =
+          address == SharedBus::first_address ? static_cast<Microseconds>(pause) * one_millisecond : 0;
+      EXPECT_GE(answered_after, expected);
+      // exchange() looks every 100 µs.
+      EXPECT_LE(answered_after, expected + 200);
     }
   }
   EXPECT_EQ(shared.bus.collisions(), 0U);
