@@ -106,6 +106,14 @@ bool is_reference_search_mode(ModuleId module, std::int32_t value) {
   return is_plain || is_inverted || (is_right && module == ModuleId::pd1161);
 }
 
+/// Parameter 210 of the TMCM-1110: 4 clears the encoder at the next null event and is over then, 8 more at every one.
+constexpr std::int32_t clear_at_null = 4;
+constexpr std::int32_t at_every_null = 8;
+
+bool clears_once(ModuleId module, std::int32_t prescaler) {
+  return module == ModuleId::tmcm1110 && (prescaler & clear_at_null) != 0 && (prescaler & at_every_null) == 0;
+}
+
 /// Bank 3: the period of a timer, the edges of a switch or an input, or nothing.
 enum class InterruptSetting : std::uint8_t { none, period, edge };
 
@@ -173,6 +181,7 @@ void ReferenceModule::restore_factory_settings() {
 }
 
 Expectation ReferenceModule::request(std::uint8_t request_address, const Command& command) {
+  prescaler_is_asked_for_ = false;
   Expectation expectation;
   expectation.is_answered = request_address == address();
   const bool is_for_group = group_address() != 0 && request_address == group_address();
@@ -188,6 +197,8 @@ Expectation ReferenceModule::request(std::uint8_t request_address, const Command
 }
 
 void ReferenceModule::observe(std::int32_t value) {
+  if (prescaler_is_asked_for_) axis_[210] = value;
+  prescaler_is_asked_for_ = false;
   if (!unknown_coordinate_) return;
   coordinates_[*unknown_coordinate_] = value;
   if (global(84) == 1 && *unknown_coordinate_ != 0) eeprom_.coordinates[*unknown_coordinate_] = value;
@@ -247,6 +258,10 @@ ReferenceModule::Result ReferenceModule::axis_command(const Command& command) {
   if (command.opcode == ref_gap) {
     const bool is_known = !rule->allows('~') || (command.type == 138 && mode_was_known);
     if (!is_known) return {ok, rule->minimum, rule->maximum};
+    if (command.type == 210 && clears_once(module_, value)) {
+      prescaler_is_asked_for_ = true;
+      return {ok, value - clear_at_null, value};
+    }
     return {ok, value, value};
   }
   if (command.opcode == ref_stap) {

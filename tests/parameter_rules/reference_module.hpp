@@ -108,7 +108,8 @@ class ReferenceModule {
   std::array<std::int32_t, number_of_coordinates> coordinates_{};
   std::int32_t accumulator_ = 0;
   std::optional<std::uint8_t> unknown_coordinate_;
-  bool mode_is_known_ = false;
+  bool mode_is_known_ = false;           ///< parameter 138 was set just now
+  bool prescaler_is_asked_for_ = false;  ///< by the latest command, and a null event may have changed it
 
   struct Eeprom {
     std::map<std::uint8_t, std::int32_t> axis;
