@@ -128,20 +128,10 @@ Microseconds Module::poll_all(Microseconds now) {
   if (watches_heartbeat()) needs(poll_heartbeats(now));
   if (axis_.is_due(now)) watch_axis(now);
   needs(axis_.due());
-  needs(program_memory_.poll(now));
   // Nothing that lifts the protection of a program may be written before the program is gone.
-  if (!program_memory_.is_erasing()) needs(store_.poll(now));
+  needs(program_memory_.is_erasing() ? program_memory_.poll(now) : store_.poll(now));
   if (lines_need_poll_) needs(poll_lines(now));
-  if (executor_.wants_restart()) {
-    if (program_memory_.is_erasing() || !store_.is_written() || hal_.eeprom.busy() || has_reply_to_send()) {
-      needs(now + ParameterStore::poll_period);
-    } else if (executor_.take_factory_reset()) {
-      store_.restore_factory_settings();
-      needs(now);
-    } else {
-      restart_requested_ = true;
-    }
-  }
+  if (executor_.wants_restart()) needs(poll_restart(now));
   if (!program_machine_.is_running()) {
     parts_due_ = next;
     return next;
@@ -151,6 +141,19 @@ Microseconds Module::poll_all(Microseconds now) {
   parts_due_ = now;
   needs(executor_.next_turn());
   return next;
+}
+
+/// Lets the module restart when all is written and sent. @return when it is needed again
+Microseconds Module::poll_restart(Microseconds now) {
+  if (program_memory_.is_erasing() || !store_.is_written() || hal_.eeprom.busy() || has_reply_to_send()) {
+    return now + ParameterStore::poll_period;
+  }
+  if (executor_.take_factory_reset()) {
+    store_.restore_factory_settings();
+    return now;
+  }
+  restart_requested_ = true;
+  return never;
 }
 
 /// Executes the datagram that is complete on a line. @return when the line needs the next turn

@@ -104,7 +104,7 @@ class Module {
   /// To whom a datagram is addressed.
   enum class Recipient : std::uint8_t { other, this_module, this_module_on_can, group };
 
-  bool start(Microseconds now);
+  [[gnu::noinline]] bool start(Microseconds now);
   void open_lines();
   /// Takes what is missing of a datagram from a line, so at most one datagram. @return whether it is complete
   static bool receive(Line& line, Microseconds now) {
@@ -117,11 +117,13 @@ class Module {
     constexpr Microseconds at_once = 0;
     return now < others_due_ && executor_.calculate() ? at_once : poll_all(now);
   }
+  // Out of line is what few turns need: inlined it would make every turn save registers for it.
   [[gnu::noinline]] Microseconds poll_all(Microseconds now);
+  [[gnu::noinline]] Microseconds poll_restart(Microseconds now);
   void watch_axis(Microseconds now);
-  void watch_supply();
+  [[gnu::noinline]] void watch_supply();
   bool is_to_start_program() const;
-  void note_axis_events();
+  [[gnu::noinline]] void note_axis_events();
   Microseconds serve(Line& line, Microseconds now);
   /// Inline, for it is called for each datagram. @param line where the datagram came from, if from a line
   [[gnu::always_inline]] Handling handle(const Datagram& request, hal::PortKind kind, Line* line, Microseconds now,

@@ -39,7 +39,7 @@ class ProgramMachine {
   InterruptController interrupts;
 
   Mode mode() const { return mode_; }
-  bool is_running() const { return mode_ == Mode::run || mode_ == Mode::step; }
+  bool is_running() const { return mode_ != Mode::stop; }  // Mode::reset is over at once
   /// Runs, and nothing can come between two instructions: neither an interrupt nor the end of a single step.
   bool runs_undisturbed() const { return mode_ == Mode::run && !interrupts.is_active(); }
   /// Of the instruction to be executed next.
