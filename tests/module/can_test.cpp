@@ -194,7 +194,7 @@ TEST(Can, ReadsProgramMemoryWithoutAChecksum) {
 
 TEST(Can, AnswersAsTheSerialLineDoes) {
   // Any bytes but those that change how the module answers: each module gets the same command on its own line.
-  rc::check("any command", [] {
+  EXPECT_TRUE(rc::check("any command", [] {
     const auto opcode = *rc::gen::suchThat(rc::gen::arbitrary<std::uint8_t>(), [](std::uint8_t code) {
       return code != static_cast<std::uint8_t>(Opcode::software_reset) &&
              code != static_cast<std::uint8_t>(Opcode::restore_factory_settings);
@@ -212,7 +212,7 @@ TEST(Can, AnswersAsTheSerialLineDoes) {
     for (std::size_t i = 1; i < 7; ++i) {
       RC_ASSERT(replies[0].data[i] == expected->bytes[1 + i]);
     }
-  });
+  }));
 }
 
 TEST(CanIdentifiers, AreThoseOfParameters70And71) {
@@ -306,7 +306,7 @@ TEST(Pd1161, DoesNotListenToCan) {
 }
 
 TEST(AnyFrames, GetAtMostOneReplyEachAndLeaveTheModuleAlive) {
-  rc::check("any frames", [] {
+  EXPECT_TRUE(rc::check("any frames", [] {
     CanBench bench(tmcm1110);
     const auto count = *rc::gen::inRange(1, 20);
     for (int i = 0; i < count; ++i) {
@@ -322,7 +322,7 @@ TEST(AnyFrames, GetAtMostOneReplyEachAndLeaveTheModuleAlive) {
       bench.wait(6 * one_millisecond);
     }
     RC_ASSERT(replies == 1U);
-  });
+  }));
 }
 
 }  // namespace

@@ -92,7 +92,7 @@ TEST(VelocityMode, IsNotLimitedByTheMaximumPositioningSpeed) {
 }
 
 TEST(PositionMode, LandsExactlyAndNeverPassesTheTarget) {
-  rc::check("random moves", [] {
+  EXPECT_TRUE(rc::check("random moves", [] {
     Bench bench(pd1161);
     const auto pulse = *rc::gen::inRange(0, 4);
     const auto ramp = *rc::gen::inRange(pulse, pulse + 3);
@@ -119,7 +119,7 @@ TEST(PositionMode, LandsExactlyAndNeverPassesTheTarget) {
       RC_ASSERT(bench.module.world().rotor_angle() == target);
       position = target;
     }
-  });
+  }));
 }
 
 TEST(PositionMode, MakesOneRampOfAMoveOfAHundredMillionMicrosteps) {

@@ -221,7 +221,7 @@ TEST(Framing, AnswersNineZeroBytesAsAnInvalidCommand) {
 }
 
 TEST(AnyNineBytes, GetAtMostOneReplyAndLeaveTheModuleAlive) {
-  rc::check("any nine bytes", [] {
+  EXPECT_TRUE(rc::check("any nine bytes", [] {
     const auto module_id = *rc::gen::element(ModuleId::tmcm1110, ModuleId::pd1161);
     Bench bench(modules[static_cast<std::size_t>(module_id)]);
     const auto count = *rc::gen::inRange(1, 20);
@@ -235,6 +235,8 @@ TEST(AnyNineBytes, GetAtMostOneReplyAndLeaveTheModuleAlive) {
         std::copy(bytes.begin(), bytes.end(), datagram.bytes);
         datagram.seal();
         bytes[8] = datagram.bytes[8];
+        // From then on there would be text instead of datagrams.
+        if (bytes[1] == static_cast<std::uint8_t>(Opcode::enter_ascii_mode)) continue;
       }
       const Bytes reply = bench.send(bytes);
       RC_ASSERT(reply.empty() || reply.size() == datagram_size);
@@ -247,7 +249,7 @@ TEST(AnyNineBytes, GetAtMostOneReplyAndLeaveTheModuleAlive) {
       bench.wait(6 * one_millisecond);
     }
     RC_ASSERT(last.size() % datagram_size == 0U);
-  });
+  }));
 }
 
 TEST(SuppressReply, LeavesOnlyGapGgpAndGioAnswered) {
