@@ -291,6 +291,29 @@ TEST(CanAndSerial, GetTheSecondReplyOfCommand138WhereTheMoveCameFrom) {
   EXPECT_TRUE(bench.port.received.empty());
 }
 
+TEST(CanHeartbeat, StopsTheMotorWhenNoFrameForTheModuleComes) {
+  CanBench bench(tmcm1110);
+  bench.set(GlobalParameter::can_heartbeat, 200);
+  bench.ask(request(Opcode::ror, 0, 0, 100));
+  for (int i = 0; i < 10; ++i) {
+    bench.wait(100 * one_millisecond);
+    ASSERT_EQ(bench.ask(request(Opcode::gap, 3)), 100) << i;
+  }
+  // Serial commands and frames for others do not count.
+  for (int i = 0; i < 10; ++i) {
+    bench.serial_replies({1, {static_cast<std::uint8_t>(Opcode::gap), 3, 0, 0}});
+    bench.send(frame_of(900, request(Opcode::gap, 3)));
+  }
+  EXPECT_EQ(bench.ask(request(Opcode::gap, 3)), 0);
+}
+
+TEST(CanHeartbeat, IsOffWhenItIs0) {
+  CanBench bench(tmcm1110);
+  bench.ask(request(Opcode::ror, 0, 0, 100));
+  bench.wait(70'000 * one_millisecond);
+  EXPECT_NE(bench.ask(request(Opcode::gap, 2)), 0);
+}
+
 TEST(SuppressReply, HoldsOnCanToo) {
   CanBench bench(tmcm1110);
   bench.send(frame_of(module_id, request(Opcode::sgp, 255, 0, 1)));
