@@ -59,6 +59,8 @@ ConformanceTable read_conformance_table(const std::string& folder) {
   for (const std::string& file : toml_files(folder)) append(all, read_statements(file));
   append(all, command_statements(table("commands")));
   append(all, datagram_statements());
+  append(all, calculation_statements(table("calculations")));
+  append(all, condition_statements(table("conditions")));
   append(all, interrupt_statements(table("interrupts")));
   append(all, io_port_statements(table("io_ports")));
   append(all, axis_parameter_statements(table("axis_parameters")));

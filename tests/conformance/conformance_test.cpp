@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <exception>
+#include <iostream>
 #include <string>
 
 #include "tests/conformance/conformance_table.hpp"
@@ -43,10 +44,16 @@ void register_tests(const ConformanceTable& table) {
 }  // namespace
 }  // namespace opentmcl::conformance
 
+/// An argument names another folder of tables, for trying out statements.
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
-  const opentmcl::conformance::ConformanceTable table =
-      opentmcl::conformance::read_conformance_table(OPENTMCL_CONFORMANCE_TABLES);
-  opentmcl::conformance::register_tests(table);
-  return RUN_ALL_TESTS();
+  try {
+    const opentmcl::conformance::ConformanceTable table =
+        opentmcl::conformance::read_conformance_table(argc > 1 ? argv[1] : OPENTMCL_CONFORMANCE_TABLES);
+    opentmcl::conformance::register_tests(table);
+    return RUN_ALL_TESTS();
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 1;
+  }
 }

@@ -20,6 +20,8 @@ constexpr Microseconds longest_reply_time = 500 * one_millisecond;
 /// Silence is believed after this time: replies that need not wait for anything come within a turn of the main loop.
 constexpr Microseconds silence = 10 * one_millisecond;
 constexpr Microseconds step_time = 100;
+/// The last page writes of a download go on behind the last reply; a program that is started meanwhile begins later.
+constexpr Microseconds download_time = 50 * one_millisecond;
 
 std::string as_text(const Bytes& bytes) {
   if (bytes.empty()) return "nothing";
@@ -69,7 +71,11 @@ class Runner {
 
   Failure operator()(const Receive& step) {
     bench_.port.received.clear();
-    hear(step.bytes.size(), step.limit);
+    if (step.bytes.empty()) {
+      bench_.wait(step.limit);
+    } else {
+      hear(step.bytes.size(), step.limit);
+    }
     return compare(step.bytes);
   }
 
@@ -156,7 +162,10 @@ std::optional<std::string> run(const Statement& statement, ModuleId module) {
   const ModuleDescription& description = modules[static_cast<std::size_t>(module)];
   const std::vector<Step> steps = parse_steps(statement.steps, description);
   Runner runner(description, statement.port);
-  if (!statement.program.empty()) runner.bench().download(statement.program);
+  if (!statement.program.empty()) {
+    runner.bench().download(statement.program);
+    runner.bench().wait(download_time);
+  }
   for (const Step& step : steps) {
     if (const Failure failure = std::visit(runner, step.action)) return '"' + step.text + "\": " + *failure;
   }

@@ -17,6 +17,10 @@ Statements command_statements(const std::vector<TableRow>& rows);
 Statements interrupt_statements(const std::vector<TableRow>& rows);
 /// Each port follows its line, or drives it.
 Statements io_port_statements(const std::vector<TableRow>& rows);
+/// Each operation of the calculating commands.
+Statements calculation_statements(const std::vector<TableRow>& rows);
+/// Each condition of JC and CALL, holding and not.
+Statements condition_statements(const std::vector<TableRow>& rows);
 /// Every complete datagram the manuals print.
 Statements datagram_statements();
 

@@ -1,0 +1,157 @@
+#include <algorithm>
+#include <stdexcept>
+
+#include "tests/conformance/table_statements.hpp"
+
+namespace opentmcl::conformance {
+
+namespace {
+
+constexpr const char* accumulator_is = "135 2 0 0 -> 100, ";
+constexpr const char* x_register_is = "135 3 0 0 -> 100, ";
+
+/// Where an operand of a calculation is.
+enum class Place { accumulator, x_register, first_variable, second_variable, value };
+
+struct Calculation {
+  const char* command;
+  Place left;
+  Place right;
+  const char* operands;  ///< behind the operation
+};
+
+constexpr Calculation calculations[] = {
+    {"CALC", Place::accumulator, Place::value, ", "},
+    {"CALCX", Place::accumulator, Place::x_register, ""},
+    {"CALCVV", Place::first_variable, Place::second_variable, ", 10, 11"},
+    {"CALCVA", Place::first_variable, Place::accumulator, ", 10"},
+    {"CALCAV", Place::accumulator, Place::second_variable, ", 11"},
+    {"CALCVX", Place::first_variable, Place::x_register, ", 10"},
+    {"CALCXV", Place::x_register, Place::second_variable, ", 11"},
+    {"CALCV", Place::first_variable, Place::value, ", 10, "},
+};
+
+/// Instructions that put a value there. X is loaded through the accumulator, so it must be loaded first.
+std::vector<std::string> loading(Place place, const std::string& value) {
+  switch (place) {
+    case Place::accumulator:
+      return {"CALC LOAD, " + value};
+    case Place::x_register:
+      return {"CALC LOAD, " + value, "CALCX LOAD"};
+    case Place::first_variable:
+      return {"SGP 10, 2, " + value};
+    case Place::second_variable:
+      return {"SGP 11, 2, " + value};
+    case Place::value:
+      break;
+  }
+  return {};
+}
+
+std::string reading(Place place, const std::string& value) {
+  switch (place) {
+    case Place::accumulator:
+      return accumulator_is + value + '\n';
+    case Place::x_register:
+      return x_register_is + value + '\n';
+    case Place::first_variable:
+      return "GGP 10, 2 -> 100, " + value + '\n';
+    case Place::second_variable:
+      return "GGP 11, 2 -> 100, " + value + '\n';
+    case Place::value:
+      break;
+  }
+  return {};
+}
+
+std::string in_lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](char character) {
+    return character >= 'A' && character <= 'Z' ? static_cast<char>(character + 32) : character;
+  });
+  return text;
+}
+
+/// A program that jumps when `condition` holds after `before` and then leaves 2 in variable 0, else 1.
+std::string branching(const std::string& before, const std::string& condition) {
+  return before + "JC " + condition + ", Taken\nSGP 0, 2, 1\nSTOP\nTaken: SGP 0, 2, 2\nSTOP\n";
+}
+
+std::string run_and_expect(const char* result) {
+  return std::string("run\nuntil GGP 128, 0 = 0 within 1 s\nGGP 0, 2 -> 100, ") + result + '\n';
+}
+
+Modules module_set(const std::string& name) {
+  return name == "both" ? Modules::both : Modules::pd1161;
+}
+
+}  // namespace
+
+Statements calculation_statements(const std::vector<TableRow>& rows) {
+  Statements statements;
+  for (const TableRow& row : rows) {
+    const std::string& command = row["command"];
+    const std::string& operation = row["operation"];
+    const auto* const calculation =
+        std::find_if(std::begin(calculations), std::end(calculations),
+                     [&command](const Calculation& candidate) { return command == candidate.command; });
+    if (calculation == std::end(calculations)) throw std::runtime_error("no calculation is called " + command);
+
+    std::vector<std::string> instructions = loading(calculation->right, row["right"]);
+    for (std::string& line : loading(calculation->left, row["left"])) instructions.push_back(std::move(line));
+    if (calculation->left == Place::x_register) {
+      std::rotate(instructions.begin(), instructions.end() - 2, instructions.end());
+    }
+    std::string instruction = command + ' ' + operation + calculation->operands;
+    if (calculation->right == Place::value) instruction += row["right"];
+    instructions.push_back(instruction);
+
+    Statement statement{in_lower_case(command + '-' + operation),
+                        row["section"],
+                        "",
+                        module_set(row["modules"]),
+                        hal::PortKind::usb,
+                        "",
+                        "",
+                        ""};
+    if (operation == "COMP") {
+      statement.says = command + " COMP compares and sets the flags.";
+      std::string before;
+      for (const std::string& line : instructions) before += line + '\n';
+      statement.program = branching(before, row["left_after"]);
+      statement.steps = run_and_expect("2") + reading(calculation->left, row["left"]);
+    } else {
+      statement.says = command + ' ' + operation + " makes " + row["left_after"] + " of " + row["left"] + " and " +
+                       row["right"] + '.';
+      for (const std::string& line : instructions) statement.steps += line + " -> 100\n";
+      statement.steps +=
+          reading(calculation->left, row["left_after"]) + reading(calculation->right, row["right_after"]);
+    }
+    statements.push_back(std::move(statement));
+  }
+  return statements;
+}
+
+Statements condition_statements(const std::vector<TableRow>& rows) {
+  Statements statements;
+  for (const TableRow& row : rows) {
+    const std::string& condition = row["condition"];
+    for (const bool holds : {true, false}) {
+      std::string before = row[holds ? "holds" : "fails"];
+      std::replace(before.begin(), before.end(), ';', '\n');
+      before += '\n';
+      const std::string id = in_lower_case(condition) + (holds ? "-holds" : "-fails");
+      const std::string behind = condition + (holds ? " if it holds." : " if it does not hold.");
+      statements.push_back({"jc-" + id, "3.7.18", std::string(holds ? "Jumps on " : "Does not jump on ") + behind,
+                            Modules::both, hal::PortKind::usb, "", branching(before, condition),
+                            run_and_expect(holds ? "2" : "1")});
+      statements.push_back(
+          {"call-" + id, "3.7.44", std::string(holds ? "Calls on " : "Does not call on ") + behind, Modules::pd1161,
+           hal::PortKind::usb, "",
+           before + "SGP 0, 2, 1\nCALL " + condition + ", Called\nCALCV ADD, 1, 10\nSTOP\nCalled: SGP 0, 2, 2\nRSUB\n",
+           run_and_expect(holds ? "2" : "1") + "GGP 1, 2 -> 100, 10\n"});
+    }
+  }
+  return statements;
+}
+
+}  // namespace opentmcl::conformance
