@@ -134,6 +134,8 @@ void add_writing(Steps& steps, const Kind& kind, const Column& column, const Tab
   if (!column.allows('W')) {
     steps.set(0, "3");
     steps.command(kind.from_accumulator, "3");
+    steps.command(kind.store, "3");
+    steps.command(kind.restore, "3");
   } else if (!intervals.empty()) {
     add_range(steps, intervals);
     const std::int64_t value = row["stored"].empty() ? intervals.front().maximum : std::stoll(row["stored"]);

@@ -137,6 +137,7 @@ Statements condition_statements(const std::vector<TableRow>& rows) {
     const std::string& condition = row["condition"];
     for (const bool holds : {true, false}) {
       std::string before = row[holds ? "holds" : "fails"];
+      if (before.empty()) continue;
       std::replace(before.begin(), before.end(), ';', '\n');
       before += '\n';
       const std::string id = in_lower_case(condition) + (holds ? "-holds" : "-fails");

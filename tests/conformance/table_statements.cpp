@@ -111,7 +111,9 @@ Statements io_port_statements(const std::vector<TableRow>& rows) {
     const std::string port = row["port"] + ", " + row["bank"];
     const std::string get = "GIO " + port + " -> 100, ";
     std::string steps;
-    if (row["bank"] == "2") {
+    if (row["bench"].empty()) {
+      steps = "GIO " + port + " -> 100\n";
+    } else if (row["bank"] == "2") {
       for (const char* level : {"1", "0"}) {
         steps +=
             "SIO " + port + ", " + level + " -> 100\n" + get + level + "\ncheck " + row["bench"] + " = " + level + '\n';
