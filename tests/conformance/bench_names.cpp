@@ -39,10 +39,14 @@ struct Control {
 constexpr Control controls[] = {
     {"left switch", [](World& world, std::int64_t value) { world.set_left_switch(value != 0); }},
     {"right switch", [](World& world, std::int64_t value) { world.set_right_switch(value != 0); }},
-    {"home switch", [](World& world, std::int64_t value) { set_pin(world, hal::InputPin::home_switch, value); }},
-    {"encoder null", [](World& world, std::int64_t value) { set_pin(world, hal::InputPin::encoder_null, value); }},
+    {"home switch", [](World& world, std::int64_t value) { world.set_home_switch(value != 0); }},
     {"enable", [](World& world, std::int64_t value) { set_pin(world, hal::InputPin::step_dir_enable, value); }},
     {"analog 0", [](World& world, std::int64_t value) { world.set_analog_input(0, static_cast<std::int32_t>(value)); }},
+    {"load", [](World& world, std::int64_t value) { world.set_load_measurement(static_cast<std::int32_t>(value)); }},
+    {"step input",
+     [](World& world, std::int64_t value) {
+       for (std::int64_t i = 0; i < (value < 0 ? -value : value); ++i) world.pulse_step_input(value < 0);
+     }},
     {"supply", [](World& world, std::int64_t value) { world.set_supply_voltage(static_cast<std::int32_t>(value)); }},
     {"temperature", [](World& world, std::int64_t value) { world.set_temperature(static_cast<std::int32_t>(value)); }},
 };

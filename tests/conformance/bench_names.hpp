@@ -8,8 +8,9 @@
 
 namespace opentmcl::conformance {
 
-/// "left switch", "right switch", "home switch", "encoder null", "enable", "input 0" to "input 7": 0 or 1;
-/// "analog 0": converter value; "supply": mV; "temperature": °C.
+/// "left switch", "right switch", "home switch", "enable", "input 0" to "input 7": 0 or 1;
+/// "analog 0": converter value; "supply": mV; "temperature": °C; "load": what stallGuard2 measures, 0 to 1023;
+/// "step input": so many pulses on the connector, negative ones with the other direction.
 /// @throws std::runtime_error for another name
 void set_world(twin::World& world, std::string_view name, std::int64_t value);
 

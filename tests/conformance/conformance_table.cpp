@@ -15,6 +15,9 @@ namespace opentmcl::conformance {
 
 namespace {
 
+/// In front of a section's number in the manual of the TMCM-1110.
+const std::string tmcm1110_prefix = "TM-";
+
 void append(Statements& all, Statements some) {
   all.insert(all.end(), std::make_move_iterator(some.begin()), std::make_move_iterator(some.end()));
 }
@@ -30,7 +33,7 @@ std::vector<std::string> toml_files(const std::string& folder) {
 
 bool has_section(const ConformanceTable& table, const std::string& number) {
   return std::any_of(table.sections.begin(), table.sections.end(), [&number](const Section& section) {
-    return number == section.pd1161 || number == "TM-" + section.tmcm1110;
+    return number == section.pd1161 || number == tmcm1110_prefix + section.tmcm1110;
   });
 }
 
@@ -77,12 +80,23 @@ std::vector<std::string> sections_of(const Statement& statement) {
 bool is_in(const Statement& statement, const Section& section) {
   const std::vector<std::string> named = sections_of(statement);
   return std::any_of(named.begin(), named.end(), [&section](const std::string& name) {
-    const auto begins_with = [&name](const std::string& number) {
-      return name == number || name.rfind(number + '.', 0) == 0;
-    };
-    return (!section.pd1161.empty() && begins_with(section.pd1161)) ||
-           (!section.tmcm1110.empty() && begins_with("TM-" + section.tmcm1110));
+    return name == section.pd1161 || name == tmcm1110_prefix + section.tmcm1110;
   });
+}
+
+bool is_covered(const ConformanceTable& table, const Section& section, ModuleId module) {
+  const std::string& number = number_in(module, section);
+  return std::any_of(table.sections.begin(), table.sections.end(), [&](const Section& part) {
+    const std::string& part_number = number_in(module, part);
+    if (part_number != number && part_number.rfind(number + '.', 0) != 0) return false;
+    return std::any_of(table.statements.begin(), table.statements.end(), [&](const Statement& statement) {
+      return statement.decision.empty() && contains(statement.modules, module) && is_in(statement, part);
+    });
+  });
+}
+
+const std::string& number_in(ModuleId module, const Section& section) {
+  return module == ModuleId::pd1161 ? section.pd1161 : section.tmcm1110;
 }
 
 }  // namespace opentmcl::conformance

@@ -26,7 +26,11 @@ ConformanceTable read_conformance_table(const std::string& folder);
 
 /// The sections a statement names, as they stand in Statement::section.
 std::vector<std::string> sections_of(const Statement& statement);
-/// Whether a statement belongs to a section or to one within it.
+/// Whether a statement names a section.
 bool is_in(const Statement& statement, const Section& section);
+/// Whether a tested statement, not a mere decision, is about a section of this module's manual or one within it.
+bool is_covered(const ConformanceTable& table, const Section& section, ModuleId module);
+/// Number of a section in the manual of a module; empty when that manual lacks it.
+const std::string& number_in(ModuleId module, const Section& section);
 
 }  // namespace opentmcl::conformance
