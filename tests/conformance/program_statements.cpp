@@ -80,10 +80,6 @@ std::string run_and_expect(const char* result) {
   return std::string("run\nuntil GGP 128, 0 = 0 within 1 s\nGGP 0, 2 -> 100, ") + result + '\n';
 }
 
-Modules module_set(const std::string& name) {
-  return name == "both" ? Modules::both : Modules::pd1161;
-}
-
 }  // namespace
 
 Statements calculation_statements(const std::vector<TableRow>& rows) {
@@ -108,7 +104,7 @@ Statements calculation_statements(const std::vector<TableRow>& rows) {
     Statement statement{in_lower_case(command + '-' + operation),
                         row["section"],
                         "",
-                        module_set(row["modules"]),
+                        modules_named(row["modules"]),
                         hal::PortKind::usb,
                         "",
                         "",

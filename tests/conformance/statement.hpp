@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "firmware/hal/hal.hpp"
@@ -23,5 +24,8 @@ struct Statement {
 };
 
 using Statements = std::vector<Statement>;
+
+/// "both", "pd1161" or "tmcm1110". @throws std::runtime_error for anything else
+Modules modules_named(std::string_view name);
 
 }  // namespace opentmcl::conformance

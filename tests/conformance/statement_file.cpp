@@ -19,14 +19,6 @@ constexpr std::array<std::string_view, 8> known_keys = {"id",   "section",  "say
   throw std::runtime_error(path + ':' + std::to_string(node.source().begin.line) + ": " + what);
 }
 
-Modules module_set(std::string_view name) {
-  if (name == "both") return Modules::both;
-  for (const ModuleDescription& description : modules) {
-    if (name == description.argument) return description.id == ModuleId::pd1161 ? Modules::pd1161 : Modules::tmcm1110;
-  }
-  return Modules::none;
-}
-
 std::optional<hal::PortKind> port_kind(std::string_view name) {
   if (name == "usb") return hal::PortKind::usb;
   if (name == "rs485") return hal::PortKind::rs485;
@@ -48,10 +40,9 @@ Statement parse_statement(const toml::table& table, const std::string& path) {
     if (text(key).empty()) fail(path, table, "the statement lacks \"" + std::string(key) + '"');
   }
   const std::optional<hal::PortKind> port = port_kind(text("port", "usb"));
-  const Modules chosen = module_set(text("module", "both"));
   if (!port) fail(path, table, "unknown port");
-  if (chosen == Modules::none) fail(path, table, "unknown module");
-  return {text("id"), text("section"), text("says"), chosen, *port, text("decision"), text("program"), text("steps")};
+  return {text("id"), text("section"),  text("says"),    modules_named(text("module", "both")),
+          *port,      text("decision"), text("program"), text("steps")};
 }
 
 }  // namespace

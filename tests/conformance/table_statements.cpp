@@ -11,13 +11,6 @@ namespace opentmcl::conformance {
 
 namespace {
 
-Modules module_set(const std::string& name) {
-  if (name == "both") return Modules::both;
-  if (name == "pd1161") return Modules::pd1161;
-  if (name == "tmcm1110") return Modules::tmcm1110;
-  throw std::runtime_error("no module is called " + name);
-}
-
 constexpr Modules without(Modules all, Modules some) {
   return static_cast<Modules>(static_cast<unsigned>(all) & ~static_cast<unsigned>(some));
 }
@@ -55,7 +48,7 @@ Statements command_statements(const std::vector<TableRow>& rows) {
       usb_statement("no-other-command", "3.5", "No other command exists.", Modules::both, std::move(others)));
 
   for (const TableRow& row : rows) {
-    const Modules modules = module_set(row["modules"]);
+    const Modules modules = modules_named(row["modules"]);
     const std::string id = "command-" + row["number"];
     const std::string request = row["number"] + " 0 0 0 -> ";
     if (!row["reply"].empty()) {
@@ -75,7 +68,7 @@ Statements interrupt_statements(const std::vector<TableRow>& rows) {
   for (const TableRow& row : rows) {
     const std::string& number = row["number"];
     const std::string id = "interrupt-" + number;
-    const Modules modules = module_set(row["modules"]);
+    const Modules modules = modules_named(row["modules"]);
     std::string steps = "EI " + number + " -> 100\nDI " + number + " -> 100\n";
     if (number != "255") steps = "VECT " + number + ", 0 -> 100\n" + steps;
     statements.push_back(
@@ -126,7 +119,7 @@ Statements io_port_statements(const std::vector<TableRow>& rows) {
     std::string name = row["name"];
     const bool is_decided = name.back() == '?';
     if (is_decided) name.pop_back();
-    const Modules modules = module_set(row["modules"]);
+    const Modules modules = modules_named(row["modules"]);
     const std::string id = "io-port-" + row["bank"] + '-' + row["port"];
     const char* const section = row["bank"] == "2" ? "3.7.14 3.7.15 TM-6.2" : "3.7.15 TM-6.2";
     Statement statement = usb_statement(id, section, "Port " + port + " is " + name + '.', modules, steps);
