@@ -7,7 +7,10 @@ packages_to_build=(
   libboost1.81-dev libcli11-dev libfmt-dev nlohmann-json3-dev
 )
 # shellcheck disable=SC2034
-packages_to_test=(libgtest-dev libgmock-dev librapidcheck-dev python3 python3-serial python3-can)
+packages_to_test=(
+  libgtest-dev libgmock-dev librapidcheck-dev libtomlplusplus-dev
+  python3 python3-serial python3-can
+)
 # shellcheck disable=SC2034
 packages_to_check=(
   git clang-format clang-tidy shellcheck valgrind libbenchmark-dev

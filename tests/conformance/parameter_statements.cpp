@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <sstream>
@@ -197,7 +199,7 @@ Statement unknown_numbers(const Kind& kind, const std::vector<TableRow>& rows) {
     const bool is_known =
         std::any_of(rows.begin(), rows.end(), [&](const TableRow& row) { return row["number"] == text; });
     if (is_known) continue;
-    steps += std::string(kind.get) + ' ' + text + ", 0 -> 3\n" + kind.set + ' ' + text + ", 0, 0 -> 3\n";
+    steps += fmt::format("{0} {2}, 0 -> 3\n{1} {2}, 0, 0 -> 3\n", kind.get, kind.set, text);
   }
   std::string id = std::string("no-other-") + kind.name;
   std::replace(id.begin(), id.end(), ' ', '-');

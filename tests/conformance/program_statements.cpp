@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -80,72 +82,89 @@ std::string run_and_expect(const char* result) {
   return std::string("run\nuntil GGP 128, 0 = 0 within 1 s\nGGP 0, 2 -> 100, ") + result + '\n';
 }
 
+/// All lines, each with `ending` behind it.
+std::string joined(const std::vector<std::string>& lines, const char* ending) {
+  std::string text;
+  for (const std::string& line : lines) text.append(line).append(ending);
+  return text;
+}
+
+Statement calculation_statement(const TableRow& row) {
+  const std::string& command = row["command"];
+  const std::string& operation = row["operation"];
+  const auto* const calculation =
+      std::find_if(std::begin(calculations), std::end(calculations),
+                   [&command](const Calculation& candidate) { return command == candidate.command; });
+  if (calculation == std::end(calculations)) throw std::runtime_error("no calculation is called " + command);
+
+  std::vector<std::string> instructions = loading(calculation->right, row["right"]);
+  for (std::string& line : loading(calculation->left, row["left"])) instructions.push_back(std::move(line));
+  if (calculation->left == Place::x_register) {
+    std::rotate(instructions.begin(), instructions.end() - 2, instructions.end());
+  }
+  const std::string value = calculation->right == Place::value ? row["right"] : "";
+  instructions.push_back(fmt::format("{} {}{}{}", command, operation, calculation->operands, value));
+
+  Statement statement;
+  statement.id = in_lower_case(fmt::format("{}-{}", command, operation));
+  statement.section = row["section"];
+  statement.modules = modules_named(row["modules"]);
+  if (operation == "COMP") {
+    statement.says = command + " COMP compares and sets the flags.";
+    statement.program = branching(joined(instructions, "\n"), row["left_after"]);
+    statement.steps = run_and_expect("2") + reading(calculation->left, row["left"]);
+  } else {
+    statement.says =
+        fmt::format("{} {} makes {} of {} and {}.", command, operation, row["left_after"], row["left"], row["right"]);
+    statement.steps = joined(instructions, " -> 100\n") + reading(calculation->left, row["left_after"]) +
+                      reading(calculation->right, row["right_after"]);
+  }
+  return statement;
+}
+
+/// @param before instructions, after which the condition holds or not
+Statement jump_statement(const std::string& condition, const std::string& before, bool holds) {
+  Statement statement;
+  statement.id = in_lower_case(fmt::format("jc-{}-{}", condition, holds ? "holds" : "fails"));
+  statement.section = "3.7.18";
+  statement.says = fmt::format("{} {} {}.", holds ? "Jumps on" : "Does not jump on", condition,
+                               holds ? "if it holds" : "if it does not hold");
+  statement.program = branching(before, condition);
+  statement.steps = run_and_expect(holds ? "2" : "1");
+  return statement;
+}
+
+Statement call_statement(const std::string& condition, const std::string& before, bool holds) {
+  Statement statement;
+  statement.id = in_lower_case(fmt::format("call-{}-{}", condition, holds ? "holds" : "fails"));
+  statement.section = "3.7.44";
+  statement.says = fmt::format("{} {} {}.", holds ? "Calls on" : "Does not call on", condition,
+                               holds ? "if it holds" : "if it does not hold");
+  statement.modules = Modules::pd1161;
+  statement.program = fmt::format("{}SGP 0, 2, 1\nCALL {}, Called\nCALCV ADD, 1, 10\nSTOP\nCalled: SGP 0, 2, 2\nRSUB\n",
+                                  before, condition);
+  statement.steps = run_and_expect(holds ? "2" : "1") + "GGP 1, 2 -> 100, 10\n";
+  return statement;
+}
+
 }  // namespace
 
 Statements calculation_statements(const std::vector<TableRow>& rows) {
   Statements statements;
-  for (const TableRow& row : rows) {
-    const std::string& command = row["command"];
-    const std::string& operation = row["operation"];
-    const auto* const calculation =
-        std::find_if(std::begin(calculations), std::end(calculations),
-                     [&command](const Calculation& candidate) { return command == candidate.command; });
-    if (calculation == std::end(calculations)) throw std::runtime_error("no calculation is called " + command);
-
-    std::vector<std::string> instructions = loading(calculation->right, row["right"]);
-    for (std::string& line : loading(calculation->left, row["left"])) instructions.push_back(std::move(line));
-    if (calculation->left == Place::x_register) {
-      std::rotate(instructions.begin(), instructions.end() - 2, instructions.end());
-    }
-    std::string instruction = command + ' ' + operation + calculation->operands;
-    if (calculation->right == Place::value) instruction += row["right"];
-    instructions.push_back(instruction);
-
-    Statement statement{in_lower_case(command + '-' + operation),
-                        row["section"],
-                        "",
-                        modules_named(row["modules"]),
-                        hal::PortKind::usb,
-                        "",
-                        "",
-                        ""};
-    if (operation == "COMP") {
-      statement.says = command + " COMP compares and sets the flags.";
-      std::string before;
-      for (const std::string& line : instructions) before += line + '\n';
-      statement.program = branching(before, row["left_after"]);
-      statement.steps = run_and_expect("2") + reading(calculation->left, row["left"]);
-    } else {
-      statement.says = command + ' ' + operation + " makes " + row["left_after"] + " of " + row["left"] + " and " +
-                       row["right"] + '.';
-      for (const std::string& line : instructions) statement.steps += line + " -> 100\n";
-      statement.steps +=
-          reading(calculation->left, row["left_after"]) + reading(calculation->right, row["right_after"]);
-    }
-    statements.push_back(std::move(statement));
-  }
+  for (const TableRow& row : rows) statements.push_back(calculation_statement(row));
   return statements;
 }
 
 Statements condition_statements(const std::vector<TableRow>& rows) {
   Statements statements;
   for (const TableRow& row : rows) {
-    const std::string& condition = row["condition"];
     for (const bool holds : {true, false}) {
       std::string before = row[holds ? "holds" : "fails"];
       if (before.empty()) continue;
       std::replace(before.begin(), before.end(), ';', '\n');
       before += '\n';
-      const std::string id = in_lower_case(condition) + (holds ? "-holds" : "-fails");
-      const std::string behind = condition + (holds ? " if it holds." : " if it does not hold.");
-      statements.push_back({"jc-" + id, "3.7.18", std::string(holds ? "Jumps on " : "Does not jump on ") + behind,
-                            Modules::both, hal::PortKind::usb, "", branching(before, condition),
-                            run_and_expect(holds ? "2" : "1")});
-      statements.push_back(
-          {"call-" + id, "3.7.44", std::string(holds ? "Calls on " : "Does not call on ") + behind, Modules::pd1161,
-           hal::PortKind::usb, "",
-           before + "SGP 0, 2, 1\nCALL " + condition + ", Called\nCALCV ADD, 1, 10\nSTOP\nCalled: SGP 0, 2, 2\nRSUB\n",
-           run_and_expect(holds ? "2" : "1") + "GGP 1, 2 -> 100, 10\n"});
+      statements.push_back(jump_statement(row["condition"], before, holds));
+      statements.push_back(call_statement(row["condition"], before, holds));
     }
   }
   return statements;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <deque>
 #include <variant>
 
 #include "tests/conformance/bench_names.hpp"
@@ -43,9 +44,38 @@ std::string as_text(const Range& range) {
   return text;
 }
 
+std::string as_text(const hal::CanFrame& frame) {
+  char id[16];
+  std::snprintf(id, sizeof id, frame.is_extended ? "%08X " : "%03X ", static_cast<unsigned>(frame.id));
+  return id + as_text(Bytes(frame.data, frame.data + frame.length));
+}
+
+bool are_equal(const hal::CanFrame& left, const hal::CanFrame& right) {
+  return left.id == right.id && left.is_extended == right.is_extended && left.length == right.length &&
+         std::equal(left.data, left.data + left.length, right.data);
+}
+
+/// A CAN bus with the module and the runner on it.
+class CanBus final : public hal::CanPort {
+ public:
+  void join(std::uint32_t speed) override { bit_rate = speed; }
+  bool read(hal::CanFrame& frame) override {
+    if (to_module.empty()) return false;
+    frame = to_module.front();
+    to_module.pop_front();
+    return true;
+  }
+  void write(const hal::CanFrame& frame) override { received.push_back(frame); }
+
+  std::uint32_t bit_rate = 0;
+  std::deque<hal::CanFrame> to_module;
+  std::vector<hal::CanFrame> received;
+};
+
 class Runner {
  public:
-  Runner(const ModuleDescription& description, hal::PortKind kind) : bench_(description, kind) {}
+  Runner(const ModuleDescription& description, hal::PortKind kind)
+      : bench_(description, kind, nullptr, options_with(can_bus_)) {}
 
   tests::Bench& bench() { return bench_; }
 
@@ -69,6 +99,18 @@ class Runner {
     if (!step.reply.empty()) hear(step.reply.size(), longest_reply_time);
     bench_.wait(silence);  // there must be no more than that
     return compare(step.reply);
+  }
+
+  Failure operator()(const SendFrame& step) {
+    can_bus_.received.clear();
+    can_bus_.to_module.push_back(step.frame);
+    bench_.module.wake();
+    bench_.wait(silence);
+    const std::vector<hal::CanFrame>& received = can_bus_.received;
+    if (!step.reply) return received.empty() ? std::nullopt : Failure("expected no frame");
+    if (received.size() != 1) return "expected one frame, found " + std::to_string(received.size());
+    if (are_equal(received.front(), *step.reply)) return std::nullopt;
+    return "expected " + as_text(*step.reply) + ", found " + as_text(received.front());
   }
 
   Failure operator()(const Receive& step) {
@@ -103,7 +145,8 @@ class Runner {
   }
 
   Failure operator()(const CheckWorld& step) {
-    const std::int64_t value = look_at(bench_.module.world(), step.name);
+    const std::int64_t value =
+        step.name == "can bit rate" ? can_bus_.bit_rate : look_at(bench_.module.world(), step.name);
     if (step.value.contains(value)) return std::nullopt;
     return "expected " + as_text(step.value) + ", found " + std::to_string(value);
   }
@@ -155,6 +198,13 @@ class Runner {
     return "expected " + as_text(expected) + ", found " + as_text(bench_.port.received);
   }
 
+  static VirtualModule::Options options_with(CanBus& bus) {
+    VirtualModule::Options options;
+    options.can = &bus;
+    return options;
+  }
+
+  CanBus can_bus_;
   tests::Bench bench_;
 };
 

@@ -96,6 +96,24 @@ Bytes parse_bytes(std::string_view text) {
   return bytes;
 }
 
+/// Identifier of 3 hexadecimal digits for 11 bits or 8 for 29, then the data bytes.
+hal::CanFrame parse_frame(std::string_view text) {
+  constexpr std::size_t standard_digits = 3;
+  constexpr std::size_t extended_digits = 8;
+  const auto [id, data] = split(text, " ");
+  if (id.size() != standard_digits && id.size() != extended_digits) {
+    throw std::runtime_error("expected an identifier of 3 or 8 hexadecimal digits");
+  }
+  const Bytes bytes = parse_bytes(data);
+  hal::CanFrame frame;
+  if (bytes.size() > sizeof frame.data) throw std::runtime_error("a frame has at most 8 bytes");
+  frame.id = static_cast<std::uint32_t>(parse_number('$' + std::string(id)));
+  frame.is_extended = id.size() == extended_digits;
+  frame.length = static_cast<std::uint8_t>(bytes.size());
+  std::copy(bytes.begin(), bytes.end(), frame.data);
+  return frame;
+}
+
 /// "MVP ABS, 0, 1000", or four numbers: opcode, type, motor or bank, value.
 Command parse_command(std::string_view text, const ModuleDescription& module) {
   if (std::isdigit(static_cast<unsigned char>(text.front())) != 0) {
@@ -147,6 +165,11 @@ Action parse_action(std::string_view line, const ModuleDescription& module) {
   const auto [sent, reply] = split(line, "->");
   if (reply.empty()) throw std::runtime_error("expected -> and what must come back");
   if (starts_with_word(sent, "bytes")) return SendBytes{parse_bytes(trim(sent.substr(5))), parse_bytes(reply)};
+  if (starts_with_word(sent, "frame")) {
+    SendFrame step{parse_frame(trim(sent.substr(5))), std::nullopt};
+    if (reply != "nothing") step.reply = parse_frame(reply);
+    return step;
+  }
   return SendCommand{parse_command(sent, module), parse_reply(reply)};
 }
 

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "firmware/hal/can_port.hpp"
 #include "firmware/hal/time.hpp"
 #include "firmware/spec/modules.hpp"
 #include "firmware/wire/datagram.hpp"
@@ -40,6 +41,12 @@ struct SendCommand {
 struct SendBytes {
   Bytes bytes;
   Bytes reply;
+};
+
+/// A frame on the CAN bus, and the one that comes back; no `reply`: there must be none.
+struct SendFrame {
+  hal::CanFrame frame;
+  std::optional<hal::CanFrame> reply;
 };
 
 /// Bytes that come without being asked for, such as the second reply of command 138.
@@ -78,8 +85,8 @@ struct RunProgram {
   std::int32_t address;
 };
 
-using Action =
-    std::variant<SendCommand, SendBytes, Receive, Wait, WaitUntil, SetWorld, CheckWorld, PowerCycle, RunProgram>;
+using Action = std::variant<SendCommand, SendBytes, SendFrame, Receive, Wait, WaitUntil, SetWorld, CheckWorld,
+                            PowerCycle, RunProgram>;
 
 struct Step {
   std::string text;  ///< the line, for messages

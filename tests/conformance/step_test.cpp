@@ -25,7 +25,7 @@ std::string error_of(std::string_view line, const ModuleDescription& module = pd
 }
 
 TEST(Steps, AreCommandsInMnemonicFormWithTheirReply) {
-  const SendCommand step = parse<SendCommand>("MVP ABS, 0, -5 -> 100");
+  const auto step = parse<SendCommand>("MVP ABS, 0, -5 -> 100");
   EXPECT_EQ(step.command, (Command{4, 0, 0, -5}));
   ASSERT_TRUE(step.reply.has_value());
   EXPECT_EQ(step.reply->status, 100);
@@ -55,6 +55,21 @@ TEST(Steps, AreBytesOrTexts) {
   EXPECT_EQ(parse<SendBytes>("bytes \"AB\\r\" -> \"C\\b\"").reply, (Bytes{'C', '\b'}));
 }
 
+TEST(Steps, AreFramesOfBothKinds) {
+  const auto standard = parse<SendFrame>("frame 001 05 04 -> 7FF AA");
+  EXPECT_EQ(standard.frame.id, 1U);
+  EXPECT_FALSE(standard.frame.is_extended);
+  EXPECT_EQ(standard.frame.length, 2);
+  EXPECT_EQ(standard.frame.data[1], 4);
+  ASSERT_TRUE(standard.reply.has_value());
+  EXPECT_EQ(standard.reply->id, 0x7FFU);
+  const auto extended = parse<SendFrame>("frame 00000001 05 -> nothing");
+  EXPECT_TRUE(extended.frame.is_extended);
+  EXPECT_FALSE(extended.reply.has_value());
+  EXPECT_THAT(error_of("frame 1 05 -> nothing"), testing::HasSubstr("3 or 8 hexadecimal digits"));
+  EXPECT_THAT(error_of("frame 001 01 02 03 04 05 06 07 08 09 -> nothing"), testing::HasSubstr("at most 8 bytes"));
+}
+
 TEST(Steps, KnowTimes) {
   EXPECT_EQ(parse<Wait>("wait 250 us").duration, 250U);
   EXPECT_EQ(parse<Wait>("wait 3 ms").duration, 3'000U);
@@ -62,7 +77,7 @@ TEST(Steps, KnowTimes) {
 }
 
 TEST(Steps, WaitForAValue) {
-  const WaitUntil step = parse<WaitUntil>("until GAP 8, 0 = 1 within 5 s");
+  const auto step = parse<WaitUntil>("until GAP 8, 0 = 1 within 5 s");
   EXPECT_EQ(step.command.type, 8);
   EXPECT_EQ(step.value.minimum, 1);
   EXPECT_EQ(step.limit, 5'000'000U);

@@ -3,14 +3,15 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace opentmcl::conformance {
 
 class TableRow {
  public:
-  TableRow(const std::vector<std::string>& columns, std::vector<std::string> cells)
-      : columns_(columns), cells_(std::move(cells)) {}
+  TableRow(std::vector<std::string> columns, std::vector<std::string> cells)
+      : columns_(std::move(columns)), cells_(std::move(cells)) {}
 
   /// Text of a cell; "-" stands for nothing and comes back empty.
   /// @throws std::runtime_error when there is no such column
