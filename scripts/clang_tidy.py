@@ -41,11 +41,18 @@ def included_files(command, folder):
     return [os.path.join(folder, path) for path in shlex.split(rule.replace("\\\n", " "))[1:]]
 
 
+def configurations_of(source):
+    """The project's .clang-tidy and those of the folders down to the source."""
+    folders = [folder for folder in pathlib.Path(source).parents if folder == PROJECT or PROJECT in folder.parents]
+    return [path for folder in reversed(folders) if (path := folder / ".clang-tidy").exists()]
+
+
 def key_of(entry):
     """What the verdict on one source depends on. Paths are left out, so that another checkout has the same key."""
     digest = hashlib.sha256()
     digest.update(tool_version().encode())
-    digest.update(content_hash(PROJECT / ".clang-tidy").encode())
+    for configuration in configurations_of(entry["file"]):
+        digest.update(content_hash(configuration).encode())
     digest.update(entry["command"].replace(str(PROJECT), "").encode())
     for path in included_files(entry["command"], entry["directory"]):
         digest.update(content_hash(path).encode())

@@ -10,13 +10,15 @@
 
 namespace opentmcl {
 
-// gtest prints failures with these.
+// gtest prints failures with these, and gave them their name.
+// NOLINTBEGIN(readability-identifier-naming)
 static void PrintTo(const Command& command, std::ostream* stream) {
   *stream << int{command.opcode} << ' ' << int{command.type} << ' ' << int{command.motor} << ' ' << command.value;
 }
 static void PrintTo(Status status, std::ostream* stream) {
   *stream << "status " << static_cast<int>(status);
 }
+// NOLINTEND(readability-identifier-naming)
 
 namespace {
 
