@@ -162,6 +162,7 @@ TEST(Can, IsSilentForEveryOtherIdentifier) {
 TEST(Can, AnswersRequestsThatComeTogetherInTheirOrder) {
   CanBench bench(tmcm1110);
   std::vector<hal::CanFrame> together;
+  together.reserve(5);
   for (int i = 0; i < 5; ++i) together.push_back(frame_of(module_id, request(Opcode::sgp, 7, 2, i)));
   const auto replies = bench.send(together);
   ASSERT_EQ(replies.size(), 5U);
