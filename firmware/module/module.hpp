@@ -70,9 +70,6 @@ class Module {
   /// the turn that starts the module.
   std::uint32_t rs485_baud_rate() const { return rs485_baud_rate_; }
 
-  /// Where commands come from, as the heartbeats (global parameters 68 and 82) tell them apart.
-  enum class Interface : std::uint8_t { serial, can };
-
   /// What a display shows of the module.
   struct Snapshot {
     std::int32_t position;              ///< microsteps
@@ -100,6 +97,9 @@ class Module {
     bool is_in_ascii_mode() const { return bytes == &ascii; }
   };
   static constexpr std::size_t maximum_lines = 5;  ///< four byte ports and CAN
+
+  /// Where commands come from, as the heartbeats (global parameters 68 and 82) tell them apart.
+  enum class Interface : std::uint8_t { serial, can };
 
   /// To whom a datagram is addressed.
   enum class Recipient : std::uint8_t { other, this_module, this_module_on_can, group };

@@ -45,7 +45,22 @@ def instructions_per_repetition(command):
 
 
 class Parser(argparse.ArgumentParser):
-    """Ends with the exit code of this project for wrong usage."""
+    """--build and --limit; ends with the exit code of this project for wrong usage.
+
+    `limited` are the names that a limit can have, `what` is how the help calls them, `figure` what they limit.
+    """
+
+    def __init__(self, description, limited, what, figure):
+        super().__init__(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+        self.add_argument("--build", default="build/benchmark", metavar="FOLDER", help="default: %(default)s")
+        self.add_argument(
+            "--limit",
+            type=limit_parser(limited),
+            action="append",
+            default=[],
+            metavar=f"{what}=FIGURE",
+            help=f"highest {figure}; {what} is {', '.join(limited)}; may be given several times",
+        )
 
     def error(self, message):
         self.print_usage(sys.stderr)
@@ -65,3 +80,13 @@ def limit_parser(names):
             raise argparse.ArgumentTypeError(f"{figure!r} is no number") from None
 
     return parse
+
+
+def exit_code(figures, limits):
+    """Says which figures, by name, are above their limits."""
+    result = 0
+    for name, limit in limits:
+        if figures[name] > limit:
+            print(f"{name}: {figures[name]:.1f} instructions are above the limit of {limit:g}", file=sys.stderr)
+            result = EXIT_ABOVE_LIMIT
+    return result

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Counts processor instructions per direct-mode command with valgrind's callgrind.
 
-Usage: direct_mode_instructions.py [--build FOLDER] [--limit FEED=MEAN ...] [--models] [--mix-only]
+Usage: direct_mode_instructions.py [--build FOLDER] [--limit FEED=FIGURE ...] [--models] [--mix-only]
 
 Each figure is the difference between two runs, one with twice as many repetitions as the other, so that start-up and
 end cancel; what is left is divided by the commands sent. What the benchmark's own loop and port cost is measured with
@@ -10,7 +10,6 @@ are for the mean over the mix with the chips as register files. Exit codes: 0 do
 64 usage, 70 a run failed or counts made no sense.
 """
 
-import argparse
 import collections
 import concurrent.futures
 import os
@@ -46,16 +45,7 @@ def print_table(chips, names, rows, counts):
 
 
 def parse_arguments():
-    parser = callgrind.Parser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", default="build/benchmark", metavar="FOLDER", help="default: %(default)s")
-    parser.add_argument(
-        "--limit",
-        type=callgrind.limit_parser(FEEDS),
-        action="append",
-        default=[],
-        metavar="FEED=MEAN",
-        help=f"highest mean over the mix; FEED is {', '.join(FEEDS)}; may be given several times",
-    )
+    parser = callgrind.Parser(__doc__, limited=FEEDS, what="FEED", figure="mean over the mix")
     parser.add_argument("--models", action="store_true", help="measure with the chip models, too")
     parser.add_argument("--mix-only", action="store_true", help="no figures for single commands")
     return parser.parse_args()
@@ -89,13 +79,8 @@ def main():
 
     for chips in chips_wanted:
         print_table(chips, names, rows, counts)
-    exceeded = 0
-    for feed, limit in arguments.limit:
-        mean = counts[Measurement("registers", feed, MIX)]
-        if mean > limit:
-            print(f"{FEEDS[feed]}: {mean:.1f} instructions are above the limit of {limit:g}", file=sys.stderr)
-            exceeded = callgrind.EXIT_ABOVE_LIMIT
-    return exceeded
+    means = {feed: counts[Measurement("registers", feed, MIX)] for feed in FEEDS}
+    return callgrind.exit_code(means, arguments.limit)
 
 
 if __name__ == "__main__":

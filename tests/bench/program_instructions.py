@@ -12,7 +12,6 @@ loop, program_loop.hpp):
 Exit codes: 0 done, 1 a figure is above its limit, 64 usage, 70 a run failed or counts made no sense.
 """
 
-import argparse
 import concurrent.futures
 import os
 import pathlib
@@ -23,22 +22,8 @@ import callgrind
 FIGURES = ("instruction", "turn")
 
 
-def parse_arguments():
-    parser = callgrind.Parser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", default="build/benchmark", metavar="FOLDER", help="default: %(default)s")
-    parser.add_argument(
-        "--limit",
-        type=callgrind.limit_parser(FIGURES),
-        action="append",
-        default=[],
-        metavar="WHAT=FIGURE",
-        help=f"highest figure; WHAT is {', '.join(FIGURES)}; may be given several times",
-    )
-    return parser.parse_args()
-
-
 def main():
-    arguments = parse_arguments()
+    arguments = callgrind.Parser(__doc__, limited=FIGURES, what="WHAT", figure="figure").parse_args()
     program = pathlib.Path(arguments.build) / "tests/bench/program_repetitions"
     states = ["running", "idle"]
     try:
@@ -52,12 +37,7 @@ def main():
     print("\nProcessor instructions per instruction of a program\n")
     for what, figure in figures.items():
         print(f"{what:20}{figure:16.1f}")
-    exceeded = 0
-    for what, limit in arguments.limit:
-        if figures[what] > limit:
-            print(f"{what}: {figures[what]:.1f} instructions are above the limit of {limit:g}", file=sys.stderr)
-            exceeded = callgrind.EXIT_ABOVE_LIMIT
-    return exceeded
+    return callgrind.exit_code(figures, arguments.limit)
 
 
 if __name__ == "__main__":

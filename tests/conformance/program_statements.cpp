@@ -122,28 +122,32 @@ Statement calculation_statement(const TableRow& row) {
   return statement;
 }
 
-/// @param before instructions, after which the condition holds or not
-Statement jump_statement(const std::string& condition, const std::string& before, bool holds) {
+/// What JC and CALL have in common. @param verb "Jump" or "Call"
+Statement condition_statement(const char* instruction, const char* verb, const std::string& condition, bool holds) {
   Statement statement;
-  statement.id = in_lower_case(fmt::format("jc-{}-{}", condition, holds ? "holds" : "fails"));
-  statement.section = "3.7.18";
-  statement.says = fmt::format("{} {} {}.", holds ? "Jumps on" : "Does not jump on", condition,
-                               holds ? "if it holds" : "if it does not hold");
-  statement.program = branching(before, condition);
+  statement.id = in_lower_case(fmt::format("{}-{}-{}", instruction, condition, holds ? "holds" : "fails"));
+  statement.says = holds ? fmt::format("{}s on {} if it holds.", verb, condition)
+                         : fmt::format("Does not {} on {} if it does not hold.", in_lower_case(verb), condition);
   statement.steps = run_and_expect(holds ? "2" : "1");
   return statement;
 }
 
+/// @param before instructions, after which the condition holds or not
+Statement jump_statement(const std::string& condition, const std::string& before, bool holds) {
+  Statement statement = condition_statement("jc", "Jump", condition, holds);
+  statement.section = "3.7.18";
+  statement.program = branching(before, condition);
+  return statement;
+}
+
+/// @param before instructions, after which the condition holds or not
 Statement call_statement(const std::string& condition, const std::string& before, bool holds) {
-  Statement statement;
-  statement.id = in_lower_case(fmt::format("call-{}-{}", condition, holds ? "holds" : "fails"));
+  Statement statement = condition_statement("call", "Call", condition, holds);
   statement.section = "3.7.44";
-  statement.says = fmt::format("{} {} {}.", holds ? "Calls on" : "Does not call on", condition,
-                               holds ? "if it holds" : "if it does not hold");
   statement.modules = Modules::pd1161;
   statement.program = fmt::format("{}SGP 0, 2, 1\nCALL {}, Called\nCALCV ADD, 1, 10\nSTOP\nCalled: SGP 0, 2, 2\nRSUB\n",
                                   before, condition);
-  statement.steps = run_and_expect(holds ? "2" : "1") + "GGP 1, 2 -> 100, 10\n";
+  statement.steps += "GGP 1, 2 -> 100, 10\n";
   return statement;
 }
 

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <deque>
 #include <variant>
 
 #include "tests/conformance/bench_names.hpp"
 #include "tests/conformance/step.hpp"
 #include "tests/module/bench.hpp"
+#include "tests/module/test_can.hpp"
 
 namespace opentmcl::conformance {
 
@@ -54,23 +54,6 @@ bool are_equal(const hal::CanFrame& left, const hal::CanFrame& right) {
   return left.id == right.id && left.is_extended == right.is_extended && left.length == right.length &&
          std::equal(left.data, left.data + left.length, right.data);
 }
-
-/// A CAN bus with the module and the runner on it.
-class CanBus final : public hal::CanPort {
- public:
-  void join(std::uint32_t speed) override { bit_rate = speed; }
-  bool read(hal::CanFrame& frame) override {
-    if (to_module.empty()) return false;
-    frame = to_module.front();
-    to_module.pop_front();
-    return true;
-  }
-  void write(const hal::CanFrame& frame) override { received.push_back(frame); }
-
-  std::uint32_t bit_rate = 0;
-  std::deque<hal::CanFrame> to_module;
-  std::vector<hal::CanFrame> received;
-};
 
 class Runner {
  public:
@@ -198,13 +181,13 @@ class Runner {
     return "expected " + as_text(expected) + ", found " + as_text(bench_.port.received);
   }
 
-  static VirtualModule::Options options_with(CanBus& bus) {
+  static VirtualModule::Options options_with(tests::TestCan& bus) {
     VirtualModule::Options options;
     options.can = &bus;
     return options;
   }
 
-  CanBus can_bus_;
+  tests::TestCan can_bus_;
   tests::Bench bench_;
 };
 

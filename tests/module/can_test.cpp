@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "tests/module/bench.hpp"
+#include "tests/module/test_can.hpp"
 
 namespace opentmcl::tests {
 namespace {
@@ -16,23 +17,6 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::uint32_t module_id = 1;  // global parameter 71
 constexpr std::uint32_t reply_id = 2;   // global parameter 70
-
-/// The bus as the module's controller sees it.
-class TestCan final : public hal::CanPort {
- public:
-  void join(std::uint32_t speed) override { bit_rate = speed; }
-  bool read(hal::CanFrame& frame) override {
-    if (to_module.empty()) return false;
-    frame = to_module.front();
-    to_module.pop_front();
-    return true;
-  }
-  void write(const hal::CanFrame& frame) override { received.push_back(frame); }
-
-  std::uint32_t bit_rate = 0;
-  std::deque<hal::CanFrame> to_module;
-  std::vector<hal::CanFrame> received;
-};
 
 hal::CanFrame frame_of(std::uint32_t id, const Bytes& data, bool is_extended = false) {
   hal::CanFrame frame{id, is_extended, static_cast<std::uint8_t>(data.size()), {}};
