@@ -55,7 +55,7 @@ void Module::open_lines() {
     line.kind = line.port.kind;
     set_ascii_mode(line, starts_in_ascii_mode && line.kind != hal::PortKind::rs485);
     if (line.kind == hal::PortKind::rs485) {
-      line.paused.begin(*line.port.bytes, global_parameters_, parts_due_, others_due_);
+      line.paused.begin(*line.port.bytes, global_parameters_);
       line.bytes = &line.paused;
       has_bus_ = true;
       lines_need_poll_ = true;
@@ -262,8 +262,12 @@ Module::Handling Module::handle(const Datagram& request, hal::PortKind kind, Mic
 
 inline Module::Handling Module::handle(const Datagram& request, hal::PortKind kind, Line* line, Microseconds now,
                                        Datagram& reply) {
-  const Recipient recipient =
-      kind == hal::PortKind::usb ? Recipient::this_module : recipient_on_bus(request.bytes[0], kind);
+  Recipient recipient = Recipient::this_module;
+  if (kind != hal::PortKind::usb) {
+    recipient = recipient_on_bus(request.bytes[0], kind);
+    // The reply may have to wait: poll_lines() begins its pause in this turn.
+    parts_due_ = others_due_ = now;
+  }
   if (recipient == Recipient::other) return Handling::silent;
   if (!request.checksum_is_right()) {
     if (recipient == Recipient::group) return Handling::silent;

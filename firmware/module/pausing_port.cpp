@@ -13,8 +13,6 @@ void PausingPort::write(const std::uint8_t* data, std::size_t length) {
   }
   for (std::size_t i = 0; i < datagram_size; ++i) reply_.bytes[i] = data[i];
   state_ = State::new_reply;
-  *parts_due_ = 0;
-  *others_due_ = 0;
 }
 
 Microseconds PausingPort::poll(Microseconds now) {

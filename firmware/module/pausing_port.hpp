@@ -14,18 +14,15 @@ namespace opentmcl {
 class PausingPort final : public hal::BytePort {
  public:
   /// @param parameters the pause, which may change at any time
-  /// @param parts_due,others_due the module's: both set to 0 when poll() has to be called in this turn
-  void begin(hal::BytePort& port, const GlobalParameterAccess& parameters, Microseconds& parts_due,
-             Microseconds& others_due) {
+  void begin(hal::BytePort& port, const GlobalParameterAccess& parameters) {
     port_ = &port;
     parameters_ = &parameters;
-    parts_due_ = &parts_due;
-    others_due_ = &others_due;
   }
 
   std::size_t read(std::uint8_t* buffer, std::size_t capacity) override;
 
-  /// @param data one reply; there must be none that waits
+  /// @param data one reply; there must be none that waits. While has_reply(), poll() has to be called, first in this
+  /// turn
   void write(const std::uint8_t* data, std::size_t length) override;
 
   /// A reply waits.
@@ -40,8 +37,6 @@ class PausingPort final : public hal::BytePort {
 
   hal::BytePort* port_ = nullptr;
   const GlobalParameterAccess* parameters_ = nullptr;
-  Microseconds* parts_due_ = nullptr;
-  Microseconds* others_due_ = nullptr;
   Microseconds reply_due_ = 0;
   Datagram reply_;
   State state_ = State::empty;
