@@ -308,7 +308,8 @@ void Axis::note_obstacles(const RampState& ramp) {
   const bool is_shut_down = power_stage_.is_shut_down();
   if (is_shut_down && !driver_is_shut_down_) note(AxisEvent::driver_shutdown);
   driver_is_shut_down_ = is_shut_down;
-  if (encoder_.waits_for_null()) encoder_.follow();
+  // So often that neither a null event nor a wrap of the encoder's counter is missed.
+  encoder_.follow();
 }
 
 /// @return whether it had to stop the motor

@@ -47,10 +47,6 @@ bool EncoderPosition::has_function(std::int32_t bit) const {
   return (settings_[AxisParameter::encoder_prescaler] & function_bits[static_cast<std::size_t>(module_)] & bit) != 0;
 }
 
-bool EncoderPosition::waits_for_null() const {
-  return has_function(clear_on_null);
-}
-
 bool EncoderPosition::take_null_event(std::int32_t& count) {
   return encoder_.take_null_event(has_function(null_high_active), count);
 }
@@ -64,7 +60,7 @@ std::uint64_t EncoderPosition::scaled(std::int32_t from, std::int32_t to) const 
 void EncoderPosition::follow() {
   std::int32_t null_count = 0;
   // The event first: it lies before the count.
-  const bool clears = waits_for_null() && take_null_event(null_count);
+  const bool clears = has_function(clear_on_null) && take_null_event(null_count);
   const std::int32_t count = encoder_.count();
   if (clears) {
     scaled_ = scaled(null_count, count);

@@ -29,9 +29,8 @@ class EncoderPosition {
   /// sensOstep: the angle within a turn, 0…1023, whatever the prescaler (parameter 215).
   std::int32_t absolute_angle();
 
-  /// A null event is to clear the position: follow() is to be called while the shaft may turn.
-  bool waits_for_null() const;
-  /// Takes in what the encoder counted.
+  /// Takes in what the encoder counted, and a null event that is to clear the position. To be called now and then while
+  /// the shaft may turn.
   void follow();
 
  private:
