@@ -21,6 +21,20 @@ enum class OutputPin : std::uint8_t {
   driver_disable = 9,  ///< ENN of the TMC262
 };
 
+/// The bit of a line in Pins::inputs().
+constexpr std::uint32_t bit(InputPin pin) {
+  return 1U << static_cast<unsigned>(pin);
+}
+/// The bit of a line in Pins::set_outputs().
+constexpr std::uint32_t bit(OutputPin pin) {
+  return 1U << static_cast<unsigned>(pin);
+}
+
+/// @param levels of Pins::inputs()
+constexpr bool is_high(std::uint32_t levels, InputPin pin) {
+  return (levels & bit(pin)) != 0;
+}
+
 /// All digital lines of the board at once, one bit each.
 class Pins {
  public:

@@ -20,10 +20,6 @@ constexpr std::int32_t renewal_distance = 1 << 21;
 /// From a motion command to the first look at what came of it.
 constexpr Microseconds first_look = one_millisecond;
 
-bool is_high(std::uint32_t inputs, hal::InputPin pin) {
-  return (inputs >> static_cast<unsigned>(pin) & 1) != 0;
-}
-
 }  // namespace
 
 Axis::Axis(ModuleId module, const Hal& hal)

@@ -82,8 +82,7 @@ bool ReferenceSearch::is_at_limit(int direction) {
 
 bool ReferenceSearch::is_on_switch() {
   if (!uses_home_switch(mode_)) return is_at_limit(forth_);
-  const bool level = (pins_.inputs() >> static_cast<unsigned>(hal::InputPin::home_switch) & 1) != 0;
-  return level != inverts_home_;
+  return is_high(pins_.inputs(), hal::InputPin::home_switch) != inverts_home_;
 }
 
 /// A switch that is passed while the motor still comes out of the opposite direction does not count.

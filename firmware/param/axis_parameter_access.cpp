@@ -4,10 +4,6 @@ namespace opentmcl {
 
 namespace {
 
-bool is_high(std::uint32_t inputs, hal::InputPin pin) {
-  return (inputs >> static_cast<unsigned>(pin) & 1) != 0;
-}
-
 /// Parameter 193: a mode, and one option that belongs to it (PD-1161 manual 7.1): 64 with modes 1 to 4, which the
 /// TMCM-1110 does not have, 128 with 5 to 8.
 constexpr bool is_reference_search_mode(ModuleId module, std::int32_t value) {

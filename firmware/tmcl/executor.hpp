@@ -86,7 +86,7 @@ class Executor {
 
   /// Outputs low; the pull-up resistors of the switch inputs on, so that normally closed switches are seen
   /// (docs/decisions/0027-the-machine.md).
-  static constexpr std::uint32_t power_on_outputs = 1U << static_cast<unsigned>(hal::OutputPin::pull_ups);
+  static constexpr std::uint32_t power_on_outputs = bit(hal::OutputPin::pull_ups);
   void set_outputs(std::uint32_t levels);
 
   /// Tells the program what happened to the axis: error flags of JC, CALL and CLE, and the interrupts of stallGuard and

@@ -55,13 +55,6 @@ const PortRow* find_port(ModuleId module, std::uint8_t bank, std::uint8_t port) 
   return nullptr;
 }
 
-constexpr std::uint32_t bit(hal::OutputPin pin) {
-  return 1U << static_cast<unsigned>(pin);
-}
-constexpr std::uint32_t bit(hal::InputPin pin) {
-  return 1U << static_cast<unsigned>(pin);
-}
-
 }  // namespace
 
 Outcome Handlers::set_axis_parameter(Executor& executor, const Command& command) {

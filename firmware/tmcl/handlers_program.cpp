@@ -121,11 +121,9 @@ Outcome Handlers::wait(Executor& executor, const Command& command) {
     case WaitEvent::position:
       happened = axis.position_reached();
       break;
-    case WaitEvent::reference_switch: {
-      const std::uint32_t home = 1U << static_cast<unsigned>(hal::InputPin::home_switch);
-      happened = (parts(executor).pins.inputs() & home) != 0;
+    case WaitEvent::reference_switch:
+      happened = is_high(parts(executor).pins.inputs(), hal::InputPin::home_switch);
       break;
-    }
     case WaitEvent::limit_switch:
       happened = axis.left_switch_active() || axis.right_switch_active();
       break;
