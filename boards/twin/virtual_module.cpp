@@ -10,13 +10,6 @@ namespace opentmcl {
 
 namespace {
 
-constexpr std::uint32_t bit(hal::InputPin pin) {
-  return 1U << static_cast<unsigned>(pin);
-}
-constexpr std::uint32_t bit(hal::OutputPin pin) {
-  return 1U << static_cast<unsigned>(pin);
-}
-
 constexpr twin::ShaftEncoder::Kind encoder_of(ModuleId module) {
   return module == ModuleId::pd1161 ? twin::ShaftEncoder::Kind::absolute : twin::ShaftEncoder::Kind::incremental;
 }
@@ -175,10 +168,25 @@ void VirtualModule::take_turn() {
   next_turn_ = std::max(wanted, time + options_.turn);
 }
 
+Microseconds VirtualModule::next_act() const {
+  Microseconds next = never;
+  for (const BenchActor* actor : actors_) next = std::min(next, actor->next_act());
+  return next;
+}
+
+Microseconds VirtualModule::next_turn() const {
+  return std::min(next_firmware_turn(), next_act());
+}
+
 void VirtualModule::advance_to(Microseconds time) {
   while (next_turn() <= time) {
     world_.advance_to(next_turn() * twin::ticks_per_microsecond);
-    take_turn();
+    if (next_act() <= now()) {
+      for (BenchActor* actor : actors_) {
+        if (actor->next_act() <= now()) actor->act(*this);
+      }
+    }
+    if (next_firmware_turn() <= now()) take_turn();
   }
   world_.advance_to(time * twin::ticks_per_microsecond);
 }

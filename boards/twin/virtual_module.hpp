@@ -14,6 +14,21 @@ namespace opentmcl {
 class Module;
 struct Extensions;
 
+class VirtualModule;
+
+/// Somebody at the bench who does something at certain times, always the same in every run: the events of a scenario, a
+/// recorded session.
+class BenchActor {
+ public:
+  /// When it next wants to act; `never` when it is done. A time in the past means now.
+  virtual Microseconds next_act() const = 0;
+  /// Called at that time, before the firmware takes a turn at it. Must not let time pass.
+  virtual void act(VirtualModule& module) = 0;
+
+ protected:
+  ~BenchActor() = default;
+};
+
 /// A module as on the bench: the firmware on a board whose chips, motor and EEPROM are models. It only knows simulated
 /// time; the same bytes at the same times give the same replies and the same motion.
 class VirtualModule {
@@ -48,11 +63,15 @@ class VirtualModule {
   /// Runs firmware and world up to and including `time`; a time in the past changes nothing.
   void advance_to(Microseconds time);
 
+  /// `actor` acts from now on, those that were added earlier first; it must outlive the module.
+  void add_actor(BenchActor& actor) { actors_.push_back(&actor); }
+
   /// Something happened outside, such as bytes on a port: the firmware takes a turn at now() in the next advance_to().
   void wake() { next_turn_ = now(); }
 
-  /// When the firmware next needs to run if nothing happens outside; `never` while it only waits for commands.
-  Microseconds next_turn() const { return world_.input_changes() == noted_input_changes_ ? next_turn_ : now(); }
+  /// When the firmware or an actor next needs to run if nothing happens outside; `never` while the firmware only waits
+  /// for commands and no actor has anything to do.
+  Microseconds next_turn() const;
 
   /// Takes the supply away and gives it back: registers and RAM are lost, the EEPROM and the shaft stay.
   void power_cycle();
@@ -66,6 +85,10 @@ class VirtualModule {
 
   void restart();
   void take_turn();
+  Microseconds next_firmware_turn() const {
+    return world_.input_changes() == noted_input_changes_ ? next_turn_ : now();
+  }
+  Microseconds next_act() const;
 
   const ModuleDescription& description_;
   Options options_;
@@ -73,6 +96,7 @@ class VirtualModule {
   std::vector<hal::Port> ports_;
   std::unique_ptr<Board> board_;
   std::unique_ptr<Module> module_;
+  std::vector<BenchActor*> actors_;
   Microseconds next_turn_ = 0;
   std::uint64_t noted_input_changes_ = 0;  ///< of the world, as the firmware knows of
 };

@@ -1,0 +1,57 @@
+#include "boards/twin/virtual_module.hpp"
+
+#include <gmock/gmock.h>
+
+#include <vector>
+
+namespace opentmcl {
+namespace {
+
+using testing::ElementsAre;
+
+/// Notes the times at which it was called.
+class Visitor : public BenchActor {
+ public:
+  explicit Visitor(std::vector<Microseconds> times) : times_(std::move(times)) {}
+
+  Microseconds next_act() const override { return came_.size() < times_.size() ? times_[came_.size()] : never; }
+  void act(VirtualModule& module) override { came_.push_back(module.now()); }
+
+  const std::vector<Microseconds>& came() const { return came_; }
+
+ private:
+  std::vector<Microseconds> times_;
+  std::vector<Microseconds> came_;
+};
+
+TEST(BenchActor, ComesAtItsTimesHoweverTimeIsCut) {
+  for (const Microseconds slice : {Microseconds{1}, Microseconds{7}, Microseconds{100'000}}) {
+    VirtualModule module(pd1161, {});
+    Visitor visitor({0, 10, 10, 5'000, 99'999});
+    module.add_actor(visitor);
+    while (module.now() < 100'000) module.advance_to(module.now() + slice);
+    EXPECT_THAT(visitor.came(), ElementsAre(0u, 10u, 10u, 5'000u, 99'999u));
+    EXPECT_EQ(visitor.next_act(), never);
+  }
+}
+
+TEST(BenchActor, IsExpectedByTheModule) {
+  VirtualModule module(pd1161, {});
+  module.advance_to(one_millisecond);
+  Visitor visitor({20 * one_millisecond});
+  EXPECT_GT(module.next_turn(), 20 * one_millisecond);
+  module.add_actor(visitor);
+  EXPECT_EQ(module.next_turn(), 20 * one_millisecond);
+}
+
+TEST(BenchActor, WhoComesTooLateActsAtOnceAndLosesNothing) {
+  VirtualModule module(pd1161, {});
+  module.advance_to(one_millisecond);
+  Visitor visitor({10, 20, 2 * one_millisecond});
+  module.add_actor(visitor);
+  module.advance_to(3 * one_millisecond);
+  EXPECT_THAT(visitor.came(), ElementsAre(one_millisecond, one_millisecond, 2 * one_millisecond));
+}
+
+}  // namespace
+}  // namespace opentmcl
