@@ -11,20 +11,22 @@ enum class StepSignal : std::uint8_t {
   pulse,    ///< both edges, one short after the other
 };
 
-/// One event on a STEP line.
-struct StepEvent {
-  unsigned motor;       ///< 0…2
-  std::uint64_t clock;  ///< of the first edge, in clocks since power-on
-  StepSignal signal;
-  bool direction;  ///< level of the DIR line, stable at the edge
+/// Steps of one motor in one direction, one after the other.
+struct StepRun {
+  unsigned motor;             ///< 0…2
+  std::uint64_t count;        ///< at least 1
+  std::uint64_t first_clock;  ///< of the first edge of the first step, in clocks since power-on
+  std::uint64_t last_clock;   ///< the same of the last step; first_clock where there is only one
+  StepSignal signal;          ///< of the first step; single edges alternate
+  bool direction;             ///< level of the DIR line, stable at all edges
 
-  friend bool operator==(const StepEvent&, const StepEvent&) = default;
+  friend bool operator==(const StepRun&, const StepRun&) = default;
 };
 
 /// Hears the steps as they are given out.
 class StepListener {
  public:
-  virtual void step(const StepEvent& event) = 0;
+  virtual void steps(const StepRun& run) = 0;
 
  protected:
   ~StepListener() = default;

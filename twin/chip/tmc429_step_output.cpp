@@ -60,7 +60,7 @@ void Tmc429StepOutput::give_out(std::uint64_t clock, const Settings& settings) {
     toggled_high_ = !toggled_high_;
     signal = toggled_high_ != step_inverted(settings) ? StepSignal::rising : StepSignal::falling;
   }
-  listener_->step({motor_, clock, signal, direction_pin(settings)});
+  listener_->steps({motor_, 1, clock, clock, signal, direction_pin(settings)});
 }
 
 bool Tmc429StepOutput::step_pin(std::uint64_t clock, const Settings& settings) const {

@@ -109,7 +109,7 @@ TEST(Tmc429Bus, StopsItsClocksInPowerDownUntilTheNextDatagram) {
   EXPECT_EQ(bench.get<ActualPosition>(), 0);
   bench.chip.advance(10 * millisecond);
   EXPECT_NEAR(bench.get<ActualPosition>(), 2500, 1);
-  EXPECT_GT(bench.steps.events.front().clock, 10 * millisecond);
+  EXPECT_GT(bench.steps.events.front().first_clock, 10 * millisecond);
 }
 
 TEST(Tmc429Switches, ShowTheLeftOneInTheStatusByteAndBothInTheirRegister) {
@@ -346,7 +346,7 @@ TEST(Tmc429Outputs, GiveAPulseOfTheSetLengthForEveryStep) {
     bench.chip.advance(1);
   }
   EXPECT_EQ(bench.steps.events[0].signal, StepSignal::pulse);
-  EXPECT_EQ(bench.steps.events[0].clock, bench.chip.clock());
+  EXPECT_EQ(bench.steps.events[0].first_clock, bench.chip.clock());
   EXPECT_TRUE(bench.chip.step_pin());
   bench.chip.advance(63);
   EXPECT_TRUE(bench.chip.step_pin());
@@ -366,7 +366,7 @@ TEST(Tmc429Outputs, TurnTheDirectionOnePulseLengthBeforeTheStep) {
   EXPECT_TRUE(bench.steps.events.empty());
   bench.chip.advance(100);
   ASSERT_EQ(bench.steps.events.size(), 1u);
-  EXPECT_EQ(bench.steps.events[0].clock, reversal + 32);
+  EXPECT_EQ(bench.steps.events[0].first_clock, reversal + 32);
   EXPECT_TRUE(bench.steps.events[0].direction);
 }
 

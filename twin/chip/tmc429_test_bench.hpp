@@ -10,8 +10,8 @@
 namespace opentmcl::twin {
 
 struct StepRecorder : StepListener {
-  std::vector<StepEvent> events;
-  void step(const StepEvent& event) override { events.push_back(event); }
+  std::vector<StepRun> events;
+  void steps(const StepRun& run) override { events.push_back(run); }
 };
 
 struct Tmc429Bench {

@@ -129,7 +129,8 @@ void World::set_load_measurement(std::int32_t value) {
 }
 
 void World::pulse_step_input(bool direction) {
-  step({driven_motor, now_ - powered_at_, StepSignal::pulse, direction});
+  const std::uint64_t clock = now_ - powered_at_;
+  steps({driven_motor, 1, clock, clock, StepSignal::pulse, direction});
 }
 
 void World::set_temperature(std::int32_t celsius) {
@@ -139,26 +140,26 @@ void World::set_temperature(std::int32_t celsius) {
   turn_rotor(now_);
 }
 
-void World::step(const StepEvent& event) {
-  if (event.motor != driven_motor) {
+void World::steps(const StepRun& run) {
+  if (run.motor != driven_motor) {
     return;
   }
-  if (event.direction != direction_) {
-    direction_ = event.direction;
-    report(powered_at_ + event.clock, "direction", direction_);
+  if (run.direction != direction_) {
+    direction_ = run.direction;
+    report(powered_at_ + run.first_clock, "direction", direction_);
   }
-  if (event.signal != StepSignal::falling) {
-    step_edge(true, event);
+  if (run.signal != StepSignal::falling) {
+    step_edge(true, run.direction, run.first_clock);
   }
-  if (event.signal != StepSignal::rising) {
-    step_edge(false, event);
+  if (run.signal != StepSignal::rising) {
+    step_edge(false, run.direction, run.first_clock);
   }
 }
 
-void World::step_edge(bool rising, const StepEvent& event) {
-  const Tick tick = powered_at_ + event.clock;
+void World::step_edge(bool rising, bool direction, std::uint64_t clock) {
+  const Tick tick = powered_at_ + clock;
   report(tick, "step", rising);
-  tmc262_.step_edge(rising, event.direction, event.clock);
+  tmc262_.step_edge(rising, direction, clock);
   turn_rotor(tick);
 }
 

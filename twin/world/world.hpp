@@ -112,8 +112,8 @@ class World : private StepListener {
   Eeprom& eeprom() { return eeprom_; }
 
  private:
-  void step(const StepEvent& event) override;
-  void step_edge(bool rising, const StepEvent& event);
+  void steps(const StepRun& run) override;
+  void step_edge(bool rising, bool direction, std::uint64_t clock);
   void turn_rotor(Tick tick);
   void follow_shaft(Tick tick);
   void update_switches(Tick tick);
