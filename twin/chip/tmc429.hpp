@@ -46,12 +46,14 @@ class Tmc429 {
 
   // ---- For those who watch
 
+  /// The 24 data bits that a read datagram would be answered with; changes nothing.
+  std::uint32_t read(std::uint32_t datagram) const;
+
   std::uint64_t unmodelled_writes() const { return unmodelled_writes_; }
   std::uint32_t latest_unmodelled_write() const { return latest_unmodelled_write_; }
 
  private:
   std::uint32_t status_byte() const;
-  std::uint32_t read(std::uint32_t datagram) const;
   std::uint32_t read_common(unsigned index) const;
   void write(std::uint32_t datagram);
   /// Returns the bits to which it gave a meaning.

@@ -69,10 +69,15 @@ class World : private StepListener {
   /// Pull-up resistors of the inputs for both limit switches and the home switch; on at power-on. Without them such an
   /// input is low whatever its switch does.
   void set_pull_ups(bool on);
-  /// Level at the input for the home switch. Those for the limit switches go to the TMC429.
+  bool pull_ups() const { return pull_ups_; }
+  /// Level at the input for the home switch.
   bool home_switch() const { return levels_.home; }
+  /// Levels at the inputs for the limit switches, which are wired to the TMC429.
+  bool left_switch() const { return levels_.left; }
+  bool right_switch() const { return levels_.right; }
   /// Read it for its counts; followed by the world.
   ShaftEncoder& encoder() { return encoder_; }
+  const ShaftEncoder& encoder() const { return encoder_; }
 
   // ---- What a person at the bench can change
 
@@ -81,11 +86,14 @@ class World : private StepListener {
   void set_left_switch(bool open);
   void set_right_switch(bool open);
   void set_home_switch(bool open);
+  /// True: by a finger or a cut wire.
+  const LinearStage::Contacts& opened_by_hand() const { return opened_by_hand_; }
   /// Converter value, `channel` 0…3; the board says what each channel is. 0 at the start.
   std::int32_t analog_input(unsigned channel) const { return analog_inputs_.at(channel); }
   void set_analog_input(unsigned channel, std::int32_t value);
   /// What stallGuard2 measures of the load: 0 (a stall) to 1023 (no load, at the start).
   void set_load_measurement(std::int32_t value);
+  std::int32_t load_measurement() const { return load_measurement_; }
   /// A pulse on the STEP input of the step/direction connector, which goes to the driver like those of the TMC429.
   void pulse_step_input(bool direction);
   /// Motor supply in mV, 24 V at the start. The chips' logic has a supply of its own; below 7 V the TMC262 loses its
