@@ -4,8 +4,16 @@
 
 #include <vector>
 
+#include "firmware/hal/pins.hpp"
+#include "twin/world/quantities.hpp"
+
 namespace opentmcl {
 namespace {
+
+// The world's table of quantities names the lines of the board.
+static_assert(hal::bit(hal::InputPin::in0) == 1 && hal::bit(hal::OutputPin::out0) == 1);
+static_assert(hal::bit(hal::InputPin::step_dir_enable) == 1U << twin::step_direction_enable_bit);
+static_assert(hal::bit(hal::OutputPin::pull_ups) == 1U << 8 && hal::bit(hal::OutputPin::driver_disable) == 1U << 9);
 
 using testing::ElementsAre;
 
