@@ -1,59 +1,121 @@
-// An encoder on the motor's shaft: 1024 counts a turn and one null position.
+// An encoder that turns with the motor's shaft or with what is behind it.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 
+#include "twin/physics/shaft.hpp"
+
 namespace opentmcl::twin {
 
-/// Angles are exact: every passage of the null position is seen, also one that goes back at once. The null position is
-/// where the shaft stood in the beginning; it moves with the shaft and survives a loss of power.
-class ShaftEncoder {
- public:
+/// How an encoder is made and mounted. The default is the one of the TMCM-1110's machine (docs/machine.md).
+struct EncoderProperties {
   enum class Kind : std::uint8_t {
     absolute,     ///< sensOstep in the PD-1161: 1024 angles a turn; knows its angle at power-on, but not the turns
-    incremental,  ///< three channels A, B and N with 256 lines a turn; counts from 0 at power-on
+    incremental,  ///< channels A, B and N; counts four in a line, from 0 at power-on
   };
-  static constexpr std::int64_t counts_per_turn = 1024;
 
-  /// How far from the null position near_null() holds, in counts: about one full step.
+  Kind kind = Kind::incremental;
+  bool on_load_side = false;  ///< behind the backlash, not on the motor's shaft
+  bool reversed = false;      ///< counts down when the shaft angle rises
+
+  // ---- Incremental
+
+  std::int32_t lines = 256;        ///< a turn, 1 and more
+  std::int32_t null_position = 0;  ///< counts, 0 to a turn, where N begins to have its null level; 0 is shaft angle 0
+  std::int32_t null_width = 1;     ///< counts for which it does, less than a turn
+  bool null_level = false;         ///< of N there; elsewhere it has the other one
+
+  // ---- Absolute: the magnet on the shaft's end, in microsteps (51200 a turn)
+
+  std::int32_t magnet_offset = 0;  ///< of its angle 0, which lies so far below shaft angle 0
+  /// A magnet off its axis adds amplitude × sin(angle + phase), one that is not round amplitude × sin(2 angle + phase).
+  /// First amplitude and twice the second must be less than 7900 together, so that the measured angle still only rises.
+  struct Harmonic {
+    std::int32_t amplitude = 0;
+    std::int32_t phase = 0;
+  };
+  Harmonic first_harmonic{};
+  Harmonic second_harmonic{};
+};
+
+enum class EncoderChannel : std::uint8_t { a, b, n };
+
+/// Angles are exact: every passage of the null position is seen, also one that goes back at once. Counts and events
+/// are a function of the way alone; follow() may leap, as long as the shaft has not turned back in between.
+class ShaftEncoder {
+ public:
+  using Kind = EncoderProperties::Kind;
+
+  /// Of the sensOstep encoder.
+  static constexpr std::int64_t absolute_counts_per_turn = 1024;
+  /// How far from the null position near_null() holds, in counts of sensOstep: about one full step.
   static constexpr std::int64_t near_counts = 5;
 
-  /// @param null_level level of N at the null position; elsewhere it has the other one. Incremental encoders only.
-  explicit ShaftEncoder(Kind kind, bool null_level = false) : kind_(kind), null_level_(null_level) {}
+  explicit ShaftEncoder(const EncoderProperties& properties);
+  explicit ShaftEncoder(Kind kind) : ShaftEncoder(EncoderProperties{.kind = kind}) {}
 
-  Kind kind() const { return kind_; }
+  const EncoderProperties& properties() const { return properties_; }
+  std::int64_t counts_per_turn() const { return counts_per_turn_; }
 
   /// The supply comes back: what was counted and noted is lost.
   void power_up();
 
-  /// The shaft has turned. @param angle microsteps
+  /// The shaft, or the load side, has turned. @param angle microsteps
   void follow(std::int64_t angle) {
-    if (angle < count_begins_ || angle >= count_ends_) move_to(angle);
+    if (const std::int64_t place = place_at(angle); place != place_) move_to(place);
   }
 
   /// Counts since power-on. Absolute: its lowest ten bits are the angle.
-  std::int64_t count() const { return place_ - zero_; }
+  std::int64_t count() const { return count_in(place_); }
+  /// What count() would be at `angle`.
+  std::int64_t count_at(std::int64_t angle) const { return count_in(place_at(angle)); }
 
-  bool near_null() const;
+  /// Within near_counts of the null position, now or at `angle`.
+  bool near_null() const { return is_near_null(place_); }
+  bool near_null_at(std::int64_t angle) const { return is_near_null(place_at(angle)); }
 
   /// A null event is the arrival at the null position. An incremental encoder's is seen as N at `level` while A and B
-  /// are high: with the wrong level that is once in every line but the one of the null position.
+  /// are high: with the wrong level that is once in every line but those of the null position.
   /// @return the count at the last such event since the last call
   std::optional<std::int64_t> take_null_event(bool level);
 
- private:
-  void move_to(std::int64_t angle);
-  void note_null_events(std::int64_t before);
+  /// A broken wire leaves the channel high, for its pull-up. Incremental encoders only.
+  void break_wire(EncoderChannel channel, bool broken);
 
-  Kind kind_;
-  bool null_level_;
-  std::int64_t place_ = 0;  ///< counts from the null position, over all turns
-  std::int64_t zero_ = 0;   ///< place of count 0
-  std::int64_t count_begins_ = 0;
-  std::int64_t count_ends_ = 0;  ///< angles in between have the same count
-  std::optional<std::int64_t> null_passed_;
-  std::optional<std::int64_t> other_line_passed_;
+  /// How far from `angle` a null position begins or ends.
+  EventDistance null_distance(std::int64_t angle) const;
+
+ private:
+  struct Wires {
+    bool a_broken = false;
+    bool b_broken = false;
+    bool n_broken = false;
+  };
+
+  std::int64_t place_at(std::int64_t angle) const { return place_of(properties_.reversed ? -angle : angle); }
+  std::int64_t place_of(std::int64_t turned) const;
+  std::int64_t harmonic_error(std::int64_t magnet_angle) const;
+  std::int64_t first_turned_at(std::int64_t place) const;
+  bool intact() const { return !wires_.a_broken && !wires_.b_broken && !wires_.n_broken; }
+  std::int64_t count_in(std::int64_t place) const { return decoded(place) - zero_; }
+  std::int64_t decoded(std::int64_t place) const;
+  std::int64_t seen_quarter(std::int64_t place) const;
+  bool is_near_null(std::int64_t place) const;
+  bool is_in_null(std::int64_t place) const;
+  std::int64_t null_begin_at_or_below(std::int64_t place) const;
+  bool shows_event(std::int64_t place, bool level) const;
+  std::optional<std::int64_t> last_event(std::int64_t before, std::int64_t after, bool level) const;
+  std::optional<std::int64_t> last_event_up(std::int64_t before, std::int64_t after, bool in_null) const;
+  std::optional<std::int64_t> last_event_down(std::int64_t before, std::int64_t after, bool in_null) const;
+  void move_to(std::int64_t place);
+
+  EncoderProperties properties_;
+  std::int64_t counts_per_turn_;
+  Wires wires_;
+  std::int64_t place_ = 0;                 ///< counts above the place where A and B are first high, over all turns
+  std::int64_t zero_ = 0;                  ///< what decoded() gives at count 0
+  std::optional<std::int64_t> events_[2];  ///< counts at the last null event not taken, for either level of N
 };
 
 }  // namespace opentmcl::twin
