@@ -146,8 +146,8 @@ void introduce(const Context& context, const ModuleDescription& module, const Si
 /// Where the slider of a stage stands, from the middle of its travel; nothing for a free shaft.
 std::string describe_machine(const twin::World& world) {
   constexpr double micrometres = 1000.0;  // in 1 mm
-  if (!world.stage()) return {};
-  return fmt::format("  {:7.2f} mm", static_cast<double>(world.stage()->place_at(world.rotor_angle())) / micrometres);
+  if (world.machine().place_unit() != twin::PlaceUnit::micrometre) return {};
+  return fmt::format("  {:7.2f} mm", static_cast<double>(world.machine().place()) / micrometres);
 }
 
 /// Shows what the module does, now and from then on.
@@ -214,7 +214,7 @@ Result<void> run_sim(const Context& context, const SimOptions& options) {
   ports.push_back({&line.port(), hal::PortKind::usb});
 
   VirtualModule::Options board;
-  if (options.machine == "free") board.stage.reset();
+  if (options.machine == "free") board.machine = twin::RotaryAxisDimensions{};
   board.can = endpoints->can_port();
   VirtualModule module(description, ports, board);
   if (eeprom) {

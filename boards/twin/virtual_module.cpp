@@ -4,14 +4,16 @@
 #include <optional>
 #include <utility>
 
+#include "boards/twin/module_wiring.hpp"
 #include "firmware/module/module.hpp"
 
 namespace opentmcl {
 
 namespace {
 
-constexpr twin::ShaftEncoder::Kind encoder_of(ModuleId module) {
-  return module == ModuleId::pd1161 ? twin::ShaftEncoder::Kind::absolute : twin::ShaftEncoder::Kind::incremental;
+twin::ShaftEncoder encoder_of(ModuleId module, twin::EncoderProperties properties) {
+  properties.kind = wiring_of(module).encoder;
+  return twin::ShaftEncoder(properties);
 }
 
 }  // namespace
@@ -23,7 +25,7 @@ class VirtualModule::Board {
       : tmc429_(world),
         tmc262_(world),
         eeprom_(world),
-        pins_(module, world),
+        pins_(wiring_of(module), world),
         analog_(world),
         encoder_(world),
         hal{tmc429_, tmc262_, eeprom_, pins_, analog_, encoder_, ports.data(), static_cast<std::uint8_t>(ports.size()),
@@ -55,28 +57,23 @@ class VirtualModule::Board {
   };
 
   struct PinBank final : hal::Pins {
-    PinBank(ModuleId m, twin::World& w) : module(m), world(w) {}
+    PinBank(const ModuleWiring& board, twin::World& w) : wiring(board), world(w) {}
     std::uint32_t inputs() override {
       std::uint32_t levels = world.inputs() & ~bit(hal::InputPin::stall_guard);
       if (world.stall_guard_output()) levels |= bit(hal::InputPin::stall_guard);
       if (world.home_switch()) levels |= bit(hal::InputPin::home_switch);
-      if (module == ModuleId::pd1161) {
-        if (world.encoder().near_null()) levels |= bit(hal::InputPin::encoder_null);
-      } else if ((levels & home_and_in0) != 0) {
-        levels |= home_and_in0;
-      }
+      if (wiring.shows_encoder_null && world.encoder().near_null()) levels |= bit(hal::InputPin::encoder_null);
+      if (wiring.home_switch_is_in0 && (levels & home_and_in0) != 0) levels |= home_and_in0;
       return levels;
     }
     void set_outputs(std::uint32_t levels) override {
       world.set_outputs(levels);
       world.set_driver_disable((levels & bit(hal::OutputPin::driver_disable)) != 0);
-      // Those of the TMCM-1110 are soldered in.
-      if (module == ModuleId::pd1161) world.set_pull_ups((levels & bit(hal::OutputPin::pull_ups)) != 0);
+      if (wiring.pull_ups_can_be_switched) world.set_pull_ups((levels & bit(hal::OutputPin::pull_ups)) != 0);
     }
-    /// One line of the TMCM-1110: the home switch is wired to AIN_0.
     static constexpr std::uint32_t home_and_in0 = bit(hal::InputPin::home_switch) | bit(hal::InputPin::in0);
 
-    ModuleId module;
+    const ModuleWiring& wiring;
     twin::World& world;
   };
 
@@ -132,7 +129,7 @@ VirtualModule::VirtualModule(const ModuleDescription& description, std::vector<h
                              twin::TraceObserver* observer)
     : description_(description),
       options_(options),
-      world_(observer, {options.stage, twin::ShaftEncoder(encoder_of(description.id))}),
+      world_(observer, {options.machine, encoder_of(description.id, options.encoder)}),
       ports_(std::move(ports)),
       board_(std::make_unique<Board>(description.id, world_, ports_, options_.can)) {
   restart();

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "firmware/hal/hal.hpp"
@@ -39,8 +38,10 @@ class VirtualModule {
     Microseconds turn = 100;
     /// User functions and bank 1; none if nullptr, else it must outlive the module.
     const Extensions* extensions = nullptr;
-    /// The machine on the shaft; std::nullopt: a free shaft without ends and switches.
-    std::optional<twin::LinearStageDimensions> stage = twin::LinearStageDimensions{};
+    /// The machine on the shaft.
+    twin::MachineDimensions machine = twin::LinearStageDimensions{};
+    /// The encoder on it; its kind is that of the module, whatever is said here.
+    twin::EncoderProperties encoder{};
     /// The module's end of a CAN bus, or none; must outlive the module. A PD-1161 does not look at it.
     hal::CanPort* can = nullptr;
   };

@@ -10,7 +10,7 @@ namespace {
 /// @param start µm from the middle
 VirtualModule::Options stage_from(std::int32_t start) {
   VirtualModule::Options options;
-  options.stage->start = start;
+  std::get<twin::LinearStageDimensions>(options.machine).start = start;
   return options;
 }
 

@@ -124,7 +124,7 @@ TEST(PositionMode, LandsExactlyAndNeverPassesTheTarget) {
 
 TEST(PositionMode, MakesOneRampOfAMoveOfAHundredMillionMicrosteps) {
   VirtualModule::Options free_shaft;
-  free_shaft.stage.reset();
+  free_shaft.machine = twin::RotaryAxisDimensions{};
   Bench bench(pd1161, hal::PortKind::usb, nullptr, free_shaft);
   bench.set(AxisParameter::pulse_divisor, 0);
   bench.set(AxisParameter::ramp_divisor, 4);

@@ -36,7 +36,7 @@ bool is_near(std::int64_t value, std::int64_t expected, std::int64_t tolerance) 
 /// A module whose slider stands at `start` µm, with a steep ramp.
 struct Homing : Bench {
   explicit Homing(const ModuleDescription& description, const Dimensions& dimensions = {})
-      : Bench(description, hal::PortKind::usb, nullptr, {.stage = dimensions}), start(dimensions.start) {
+      : Bench(description, hal::PortKind::usb, nullptr, {.machine = dimensions}), start(dimensions.start) {
     set(AxisParameter::microstep_resolution, resolution);
     set(AxisParameter::pulse_divisor, 2);
     set(AxisParameter::ramp_divisor, 4);
@@ -295,7 +295,7 @@ TEST(ReferenceSearch, StartsAgainWhenItIsStartedWhileUnderWay) {
 
 VirtualModule::Options free_shaft() {
   VirtualModule::Options options;
-  options.stage.reset();
+  options.machine = twin::RotaryAxisDimensions{};
   return options;
 }
 

@@ -3,15 +3,14 @@
 
 #include <cstdint>
 
+#include "twin/physics/contact.hpp"
+
 namespace opentmcl::twin {
 
 /// Places are measured from the middle of the travel, to the right; "left" is the side of negative places. The default
 /// is the machine of the virtual modules (docs/machine.md).
 struct LinearStageDimensions {
-  enum class Contact : std::uint8_t {
-    normally_closed,  ///< open while the slider holds the switch
-    normally_open,    ///< closed while the slider holds the switch
-  };
+  using Contact = twin::Contact;
 
   std::int32_t pitch = 2'000;     ///< µm a turn of the shaft, positive
   std::int32_t travel = 100'000;  ///< µm from one hard end to the other, even
@@ -22,46 +21,18 @@ struct LinearStageDimensions {
   std::int32_t limit_switch_width = 1'000;     ///< µm for which the slider holds it, towards the end
   std::int32_t home_switch_center = -10'000;   ///< µm
   std::int32_t home_switch_width = 1'000;      ///< µm for which the slider holds it, even
-  Contact contact = Contact::normally_closed;
-};
+  Contact contact = Contact::normally_closed;  ///< of all three
+  std::int32_t switch_hysteresis = 0;          ///< µm further out at which a switch that is held lets go
+  std::int32_t switch_bounce = 0;              ///< µs for which a contact chatters after each change
 
-/// All of it as functions of the shaft angle in microsteps, exact: no place is rounded.
-class LinearStage {
- public:
-  explicit LinearStage(const LinearStageDimensions& dimensions);
+  /// µm that the slider does not move when the shaft turns back. At the start the screw touches the slider as after a
+  /// move to the left.
+  std::int32_t backlash = 0;
 
-  /// Angles from `lowest` to `highest`.
-  struct AngleRange {
-    std::int64_t lowest;
-    std::int64_t highest;
-
-    bool contains(std::int64_t angle) const { return lowest <= angle && angle <= highest; }
-  };
-
-  /// Between the hard ends.
-  const AngleRange& travel() const { return travel_; }
-
-  /// Of the three switches; true is open.
-  struct Contacts {
-    bool left;
-    bool right;
-    bool home;
-
-    friend bool operator==(const Contacts&, const Contacts&) = default;
-  };
-  Contacts contacts_at(std::int64_t angle) const;
-
-  /// Where the slider stands, µm, rounded down.
-  std::int64_t place_at(std::int64_t angle) const;
-
- private:
-  AngleRange angles_between(std::int32_t left, std::int32_t right) const;
-
-  LinearStageDimensions dimensions_;
-  AngleRange travel_;
-  AngleRange left_switch_;
-  AngleRange right_switch_;
-  AngleRange home_switch_;
+  double moved_mass = 1.0;       ///< kg, slider and what is on it
+  double screw_inertia = 1e-6;   ///< kg m², screw and coupling: 10 mm of steel, 120 mm long
+  double friction = 5.0;         ///< N, of the slider, the same at every speed
+  double end_stiffness = 100e6;  ///< N/m, of an end and of the screw's bearing together
 };
 
 }  // namespace opentmcl::twin

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <variant>
 
 #include "twin/physics/shaft.hpp"
 
@@ -125,11 +126,19 @@ constexpr Quantity rows[] = {
      .unit = "mm",
      .description = "Place of the slider from the middle of its travel.",
      .trace_unit = micrometre,
-     .read =
+     .read = [](const World& world) { return static_cast<double>(world.machine().place()) * micrometre; },
+     .exists =
          [](const World& world) {
-           return static_cast<double>(world.stage()->place_at(world.rotor_angle())) * micrometre;
-         },
-     .exists = [](const World& world) { return world.stage().has_value(); }},
+           return std::holds_alternative<LinearStageDimensions>(world.machine().dimensions());
+         }},
+    {.name = "table",
+     .unit = "deg",
+     .description = "Angle of the table behind its gear, over all turns.",
+     .read = [](const World& world) { return static_cast<double>(world.machine().place()) / 1000; },
+     .exists =
+         [](const World& world) {
+           return std::holds_alternative<CircularAxisDimensions>(world.machine().dimensions());
+         }},
     {.name = "encoder",
      .unit = "",
      .description = "Counts of the encoder on the shaft since power-on, 1024 a turn.",
@@ -153,7 +162,7 @@ constexpr Quantity rows[] = {
      .description = "A finger on the left limit switch, or its wire cut.",
      .kind = Kind::truth,
      .highest = 1,
-     .read = [](const World& world) { return world.opened_by_hand().left ? 1.0 : 0.0; },
+     .read = [](const World& world) { return world.machine().wire_broken(MachineSwitch::left) ? 1.0 : 0.0; },
      .write = [](World& world, double value) { world.set_left_switch(value != 0); }},
     {.name = "right_switch",
      .unit = "",
@@ -166,7 +175,7 @@ constexpr Quantity rows[] = {
      .description = "A finger on the right limit switch, or its wire cut.",
      .kind = Kind::truth,
      .highest = 1,
-     .read = [](const World& world) { return world.opened_by_hand().right ? 1.0 : 0.0; },
+     .read = [](const World& world) { return world.machine().wire_broken(MachineSwitch::right) ? 1.0 : 0.0; },
      .write = [](World& world, double value) { world.set_right_switch(value != 0); }},
     {.name = "home_switch",
      .unit = "",
@@ -179,7 +188,7 @@ constexpr Quantity rows[] = {
      .description = "A finger on the home switch, or its wire cut.",
      .kind = Kind::truth,
      .highest = 1,
-     .read = [](const World& world) { return world.opened_by_hand().home ? 1.0 : 0.0; },
+     .read = [](const World& world) { return world.machine().wire_broken(MachineSwitch::home) ? 1.0 : 0.0; },
      .write = [](World& world, double value) { world.set_home_switch(value != 0); }},
     {.name = "pull_ups",
      .unit = "",

@@ -15,10 +15,10 @@
 namespace opentmcl::twin {
 namespace {
 
-World::Machine stage_at(std::int32_t start) {
-  World::Machine machine{.stage = LinearStageDimensions{}};
-  machine.stage->start = start;
-  return machine;
+World::Mounted stage_at(std::int32_t start) {
+  LinearStageDimensions dimensions;
+  dimensions.start = start;
+  return {.machine = dimensions};
 }
 
 double value_of(const World& world, std::string_view name) {
@@ -118,7 +118,16 @@ TEST(Quantities, KnowTheStepRate) {
 TEST(Quantities, ExistOnlyOnTheMachineThatHasThem) {
   EXPECT_FALSE(find_quantity("stage")->exists_in(World()));
   EXPECT_TRUE(find_quantity("stage")->exists_in(World(nullptr, stage_at(0))));
+  EXPECT_FALSE(find_quantity("table")->exists_in(World(nullptr, stage_at(0))));
   EXPECT_EQ(find_quantity("stages"), nullptr);
+}
+
+TEST(Quantities, ShowTheAngleOfATable) {
+  CircularAxisDimensions table;
+  table.start = 12'500;
+  const World world(nullptr, {.machine = table});
+  EXPECT_TRUE(find_quantity("table")->exists_in(world));
+  EXPECT_EQ(value_of(world, "table"), 12.5);
 }
 
 TEST(Quantities, SayWhyTheyCannotBeWritten) {

@@ -13,10 +13,10 @@
 namespace opentmcl::twin {
 namespace {
 
-World::Machine stage_from(std::int32_t start) {
-  World::Machine machine{.stage = LinearStageDimensions{}, .encoder = ShaftEncoder(ShaftEncoder::Kind::absolute)};
-  machine.stage->start = start;
-  return machine;
+World::Mounted stage_from(std::int32_t start) {
+  LinearStageDimensions dimensions;
+  dimensions.start = start;
+  return {.machine = dimensions, .encoder = ShaftEncoder(ShaftEncoder::Kind::absolute)};
 }
 
 /// Angle of the shaft at a place when the slider stood at `start` in the beginning, µm.
@@ -53,7 +53,7 @@ TEST(Stage, HoldsTheSliderAtItsHardEndsAndLosesStepsThere) {
     set<tmc429::TargetPosition>(world, beyond);
     world.advance_to(4000 * millisecond);
     ASSERT_EQ(get<tmc429::ActualPosition>(world), beyond);
-    EXPECT_LE(world.stage()->place_at(world.rotor_angle()) * side, 50'000);
+    EXPECT_LE(world.machine().place() * side, 50'000);
     set<tmc429::TargetPosition>(world, beyond - side * 5'000);
     world.advance_to(5000 * millisecond);
     EXPECT_EQ((beyond - side * 5'000 - world.rotor_angle()) % IdealRotor::field_turn, 0);

@@ -5,12 +5,9 @@
 #include <string>
 #include <string_view>
 
+#include "twin/physics/tick.hpp"
+
 namespace opentmcl::twin {
-
-/// Time of a World: one tick is one clock of the TMC429, 62.5 ns.
-using Tick = std::uint64_t;
-
-inline constexpr Tick ticks_per_microsecond = 16;
 
 /// Hears every change of a signal when it happens. Ticks never run backwards within one signal.
 class TraceObserver {

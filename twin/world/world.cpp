@@ -1,23 +1,22 @@
 #include "twin/world/world.hpp"
 
+#include <algorithm>
+
 namespace opentmcl::twin {
 namespace {
 
 constexpr unsigned driven_motor = 0;  // motor 1: the only one with a driver on these modules
 
-IdealRotor rotor_of(const World::Machine& machine) {
-  if (!machine.stage) return {};
-  const LinearStage::AngleRange travel = LinearStage(*machine.stage).travel();
-  return {travel.lowest, travel.highest};
-}
-
 }  // namespace
 
-World::World(TraceObserver* observer, const Machine& machine)
-    : observer_(observer), rotor_(rotor_of(machine)), encoder_(machine.encoder) {
-  if (machine.stage) stage_.emplace(*machine.stage);
+World::World(TraceObserver* observer, const Mounted& mounted)
+    : observer_(observer),
+      machine_(mounted.machine),
+      rotor_(machine_.travel().lowest, machine_.travel().highest),
+      encoder_(mounted.encoder) {
   tmc429_.emplace(static_cast<StepListener&>(*this));
   tmc262_.set_temperature(temperature_);
+  update_switches(now_);
   follow_shaft(now_);
 }
 
@@ -39,11 +38,15 @@ void World::power_cycle() {
 }
 
 void World::advance_to(Tick tick) {
-  if (tick <= now_) {
-    return;
+  while (now_ < tick) {
+    // A step may start the chatter of a contact: its first change must not lie within the same piece.
+    const Tick longest = machine_.shortest_chatter();
+    const Tick chatter = machine_.next_chatter(now_);
+    const Tick next = std::min({tick, chatter, longest < tick - now_ ? now_ + longest : tick});
+    tmc429_->advance(next - now_);
+    now_ = next;
+    if (now_ == chatter) update_switches(now_);
   }
-  tmc429_->advance(tick - now_);
-  now_ = tick;
 }
 
 std::uint32_t World::transfer_tmc429(std::uint32_t datagram) {
@@ -94,17 +97,17 @@ void World::set_pull_ups(bool on) {
 }
 
 void World::set_left_switch(bool open) {
-  opened_by_hand_.left = open;
+  machine_.break_wire(MachineSwitch::left, open);
   update_switches(now_);
 }
 
 void World::set_right_switch(bool open) {
-  opened_by_hand_.right = open;
+  machine_.break_wire(MachineSwitch::right, open);
   update_switches(now_);
 }
 
 void World::set_home_switch(bool open) {
-  opened_by_hand_.home = open;
+  machine_.break_wire(MachineSwitch::home, open);
   update_switches(now_);
 }
 
@@ -175,30 +178,24 @@ void World::turn_rotor(Tick tick) {
 /// What the shaft moves: the encoder, the slider and its switches.
 void World::follow_shaft(Tick tick) {
   const std::int64_t angle = rotor_.angle();
-  encoder_.follow(angle);
-  if (stage_) {
-    const LinearStage::Contacts contacts = stage_->contacts_at(angle);
-    if (contacts != contacts_) {
-      contacts_ = contacts;
-      update_switches(tick);
-    }
-  }
+  if (machine_.follow(angle, tick)) update_switches(tick);
+  encoder_.follow(encoder_.properties().on_load_side ? machine_.load_side_angle() : angle);
   if (observer_ == nullptr) return;
   if (encoder_.count() != traced_count_) report(tick, "encoder", traced_count_ = encoder_.count());
-  if (stage_ && stage_->place_at(angle) != traced_place_)
-    report(tick, "stage", traced_place_ = stage_->place_at(angle));
+  if (machine_.place_unit() == PlaceUnit::micrometre && machine_.place() != traced_place_)
+    report(tick, "stage", traced_place_ = machine_.place());
 }
 
 /// A closed contact pulls its input to ground, a pull-up resistor lifts that of an open one.
 void World::update_switches(Tick tick) {
-  const auto level = [this, tick](std::string_view name, bool open, bool before) {
-    const bool high = open && pull_ups_;
+  const auto level = [this, tick](std::string_view name, MachineSwitch source, bool before) {
+    const bool high = machine_.is_open(source, tick) && pull_ups_;
     if (high != before) report(tick, name, high);
     return high;
   };
-  levels_ = {.left = level("left_switch", contacts_.left || opened_by_hand_.left, levels_.left),
-             .right = level("right_switch", contacts_.right || opened_by_hand_.right, levels_.right),
-             .home = level("home_switch", contacts_.home || opened_by_hand_.home, levels_.home)};
+  levels_ = {.left = level("left_switch", MachineSwitch::left, levels_.left),
+             .right = level("right_switch", MachineSwitch::right, levels_.right),
+             .home = level("home_switch", MachineSwitch::home, levels_.home)};
   tmc429_->set_left_switch(levels_.left);
   tmc429_->set_right_switch(levels_.right);
 }

@@ -12,7 +12,7 @@
 #include "twin/chip/tmc262.hpp"
 #include "twin/chip/tmc429.hpp"
 #include "twin/physics/ideal_rotor.hpp"
-#include "twin/physics/linear_stage.hpp"
+#include "twin/physics/machine.hpp"
 #include "twin/physics/shaft_encoder.hpp"
 #include "twin/world/trace.hpp"
 
@@ -25,15 +25,14 @@ class World : private StepListener {
   static constexpr unsigned analog_channel_count = 4;
 
   /// What is mounted on the shaft.
-  struct Machine {
-    /// Nothing: a free shaft without end, all switch inputs wired to ground.
-    std::optional<LinearStageDimensions> stage;
+  struct Mounted {
+    MachineDimensions machine = RotaryAxisDimensions{};
     ShaftEncoder encoder{ShaftEncoder::Kind::incremental};
   };
 
   /// `observer`, if any, must outlive this and must not call back into it.
-  explicit World(TraceObserver* observer = nullptr) : World(observer, Machine{}) {}
-  World(TraceObserver* observer, const Machine& machine);
+  explicit World(TraceObserver* observer = nullptr) : World(observer, Mounted{}) {}
+  World(TraceObserver* observer, const Mounted& mounted);
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
@@ -86,8 +85,6 @@ class World : private StepListener {
   void set_left_switch(bool open);
   void set_right_switch(bool open);
   void set_home_switch(bool open);
-  /// True: by a finger or a cut wire.
-  const LinearStage::Contacts& opened_by_hand() const { return opened_by_hand_; }
   /// Converter value, `channel` 0…3; the board says what each channel is. 0 at the start.
   std::int32_t analog_input(unsigned channel) const { return analog_inputs_.at(channel); }
   void set_analog_input(unsigned channel, std::int32_t value);
@@ -111,8 +108,7 @@ class World : private StepListener {
 
   /// Angle of the shaft since power-on in microsteps of 1/256 full step.
   std::int64_t rotor_angle() const { return rotor_.angle(); }
-  /// Nothing on a free shaft.
-  const std::optional<LinearStage>& stage() const { return stage_; }
+  const Machine& machine() const { return machine_; }
   const Tmc429& tmc429() const { return *tmc429_; }
   const Tmc262& tmc262() const { return tmc262_; }
   const Eeprom& eeprom() const { return eeprom_; }
@@ -133,12 +129,16 @@ class World : private StepListener {
   std::optional<Tmc429> tmc429_;
   Tmc262 tmc262_;
   Eeprom eeprom_;
-  std::optional<LinearStage> stage_;
+  Machine machine_;
   IdealRotor rotor_;
   ShaftEncoder encoder_;
-  LinearStage::Contacts contacts_{};        ///< as the machine has them
-  LinearStage::Contacts opened_by_hand_{};  ///< on top of that
-  LinearStage::Contacts levels_{};          ///< at the inputs: true is high
+  /// One value for each switch input.
+  struct SwitchInputs {
+    bool left = false;
+    bool right = false;
+    bool home = false;
+  };
+  SwitchInputs levels_;  ///< true is high
   bool pull_ups_ = true;
   std::int64_t traced_place_ = 0;
   std::int64_t traced_count_ = 0;
