@@ -44,6 +44,7 @@ void ReferenceSearch::start() {
   const std::int32_t setting = axis_.settings()[AxisParameter::reference_search_mode];
   mode_ = static_cast<std::int8_t>(setting & mode_mask);
   inverts_home_ = (setting & invert_home_option) != 0;
+  calm_polls_ = 0;
   const bool positive = starts_positive(mode_) || (setting & right_switch_option) != 0;
   forth_ = positive ? 1 : -1;
   axis_.enable_limit_stops(false);
@@ -90,6 +91,26 @@ bool ReferenceSearch::has_reached(bool switch_active, int direction) {
   return switch_active && axis_.actual_velocity() * direction >= 0;
 }
 
+/// The motor has stood for so long that no contact bounces any more.
+bool ReferenceSearch::has_calmed_down() {
+  if (axis_.actual_velocity() != 0) return false;
+  if (++calm_polls_ < polls_of_bounce) return false;
+  calm_polls_ = 0;
+  return true;
+}
+
+/// @param point set to the position at which the switch became inactive
+bool ReferenceSearch::has_left_switch(std::int32_t& point) {
+  if (is_on_switch()) {
+    calm_polls_ = 0;
+    return false;
+  }
+  if (calm_polls_ == 0) point = axis_.position();
+  if (++calm_polls_ < polls_of_bounce) return false;
+  calm_polls_ = 0;
+  return true;
+}
+
 Microseconds ReferenceSearch::advance(Microseconds now) {
   step();
   return is_active() ? now + poll_period : never;
@@ -115,12 +136,11 @@ void ReferenceSearch::step() {
       if (has_reached(is_on_switch(), -forth_)) drive(-forth_, slowly, State::retreat);
       break;
     case State::brake:
-      if (axis_.actual_velocity() != 0) break;
+      if (!has_calmed_down()) break;
       drive(-forth_, slowly, is_on_switch() ? State::retreat : State::return_to_switch);
       break;
     case State::retreat:
-      if (is_on_switch()) break;
-      first_point_ = axis_.position();
+      if (!has_left_switch(first_point_)) break;
       drive(forth_, slowly, State::enter);
       break;
     case State::enter:
@@ -134,8 +154,7 @@ void ReferenceSearch::step() {
       }
       break;
     case State::cross:
-      if (is_on_switch()) break;
-      second_point_ = axis_.position();
+      if (!has_left_switch(second_point_)) break;
       halt(State::stop);
       break;
     case State::stop:

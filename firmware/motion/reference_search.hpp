@@ -47,6 +47,10 @@ class ReferenceSearch {
   /// How often the switches are looked at. It bounds the error of a switching point: 1 ms of the switch speed.
   static constexpr Microseconds poll_period = one_millisecond;
 
+  /// A contact bounces for some milliseconds when it changes: a switch counts as left when it was found inactive so
+  /// often in a row.
+  static constexpr int polls_of_bounce = 10;
+
  private:
   Microseconds advance(Microseconds now);
   void step();
@@ -56,6 +60,8 @@ class ReferenceSearch {
   bool is_on_switch();
   bool is_at_limit(int direction);
   bool has_reached(bool switch_active, int direction);
+  bool has_calmed_down();
+  bool has_left_switch(std::int32_t& point);
 
   Axis& axis_;
   hal::Pins& pins_;
@@ -63,6 +69,7 @@ class ReferenceSearch {
   std::int8_t mode_ = 1;    ///< 1…8
   std::int8_t forth_ = -1;  ///< direction in which the switch is approached; back is -forth_
   bool inverts_home_ = false;
+  std::uint8_t calm_polls_ = 0;    ///< in a row: switch inactive, or motor standing
   std::int32_t first_point_ = 0;   ///< microsteps, as counted before the search
   std::int32_t second_point_ = 0;  ///< likewise
   std::int32_t other_end_ = 0;     ///< likewise

@@ -201,6 +201,31 @@ TEST(ReferenceSearch, TakesNormallyOpenSwitchesWithTheOtherPolarities) {
   }
 }
 
+TEST(ReferenceSearch, MeasuresContactsThatBounceWhenTheyHaveComeToRest) {
+  Dimensions dimensions;
+  dimensions.switch_bounce = 6'000;  // µs
+  for (const auto& [mode, place] : {std::pair{1, left_edge}, {4, left_middle}, {5, home_middle}, {6, home_middle}}) {
+    Homing bench(pd1161, dimensions);
+    bench.start_search(mode);
+    bench.finish();
+    EXPECT_PRED3(is_near, bench.place(), angle_of(place), 7 * Homing::millisecond_of(100)) << "mode " << mode;
+  }
+}
+
+TEST(ReferenceSearch, WaitsForAContactThatBouncesBehindTheMotorBeforeItTurnsBack) {
+  Dimensions dimensions;
+  dimensions.switch_bounce = 9'000;
+  dimensions.home_switch_width = 300;
+  for (std::int32_t fast = 1'000; fast < 1'100; fast += 10) {  // it comes to stand at other places each time
+    Homing bench(pd1161, dimensions);
+    bench.set(AxisParameter::maximum_acceleration, 2047);
+    bench.set(AxisParameter::reference_search_speed, fast);
+    bench.start_search(7);
+    EXPECT_EQ(bench.finish().back(), 0);
+    EXPECT_PRED3(is_near, bench.place(), angle_of(home_middle), 10 * Homing::millisecond_of(100));
+  }
+}
+
 TEST(ReferenceSearch, FindsTheLeftSwitchWithTheMotorAtTheOtherEndAndTheShaftReversed) {
   Dimensions dimensions;
   dimensions.mirrored = true;
