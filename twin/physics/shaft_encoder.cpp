@@ -55,7 +55,7 @@ ShaftEncoder::ShaftEncoder(const EncoderProperties& properties)
     : properties_(properties),
       counts_per_turn_(properties.kind == Kind::absolute ? absolute_counts_per_turn
                                                          : counts_per_line * properties.lines),
-      place_(place_at(0)) {
+      state_{.place = place_at(0)} {
   if (properties_.kind == Kind::absolute) {
     // What sensOstep calls its zero is the first of its counts.
     properties_.null_position = 0;
@@ -65,8 +65,9 @@ ShaftEncoder::ShaftEncoder(const EncoderProperties& properties)
 }
 
 void ShaftEncoder::power_up() {
-  zero_ = properties_.kind == Kind::absolute ? at_or_below(place_, counts_per_turn_, 0) : decoded(place_);
-  for (auto& event : events_) event.reset();
+  state_.zero =
+      properties_.kind == Kind::absolute ? at_or_below(state_.place, counts_per_turn_, 0) : decoded(state_.place);
+  for (auto& event : state_.events) event.reset();
 }
 
 std::int64_t ShaftEncoder::place_of(std::int64_t turned) const {
@@ -102,9 +103,9 @@ std::int64_t ShaftEncoder::first_turned_at(std::int64_t place) const {
 }
 
 void ShaftEncoder::move_to(std::int64_t place) {
-  const std::int64_t before = std::exchange(place_, place);
+  const std::int64_t before = std::exchange(state_.place, place);
   for (const bool level : {false, true}) {
-    if (const auto event = last_event(before, place, level)) events_[level ? 1 : 0] = count_in(*event);
+    if (const auto event = last_event(before, place, level)) state_.events[level ? 1 : 0] = count_in(*event);
   }
 }
 
@@ -112,12 +113,12 @@ void ShaftEncoder::move_to(std::int64_t place) {
 
 /// Which quarter of a line a decoder sees: a broken wire reads high.
 std::int64_t ShaftEncoder::seen_quarter(std::int64_t place) const {
-  return quarter_of(channel_a(place) || wires_.a_broken, channel_b(place) || wires_.b_broken);
+  return quarter_of(channel_a(place) || state_.a_broken, channel_b(place) || state_.b_broken);
 }
 
 /// What a decoder has counted at a place, but for a constant. With one channel alone it goes back and forth by one.
 std::int64_t ShaftEncoder::decoded(std::int64_t place) const {
-  if (!wires_.a_broken && !wires_.b_broken) return place;
+  if (!state_.a_broken && !state_.b_broken) return place;
   const std::int64_t quarter = seen_quarter(place);
   return quarter == 3 ? -1 : quarter;  // 3 comes before 0
 }
@@ -125,16 +126,16 @@ std::int64_t ShaftEncoder::decoded(std::int64_t place) const {
 void ShaftEncoder::break_wire(EncoderChannel channel, bool broken) {
   if (properties_.kind == Kind::absolute) return;
   const std::int64_t count_before = count();
-  const std::int64_t quarter_before = seen_quarter(place_);
-  const bool showed[] = {shows_event(place_, false), shows_event(place_, true)};
-  (channel == EncoderChannel::a   ? wires_.a_broken
-   : channel == EncoderChannel::b ? wires_.b_broken
-                                  : wires_.n_broken) = broken;
+  const std::int64_t quarter_before = seen_quarter(state_.place);
+  const bool showed[] = {shows_event(state_.place, false), shows_event(state_.place, true)};
+  (channel == EncoderChannel::a   ? state_.a_broken
+   : channel == EncoderChannel::b ? state_.b_broken
+                                  : state_.n_broken) = broken;
   // One channel that changes its level is a step to a neighbouring quarter, up or down.
-  const std::int64_t step = floor_remainder(seen_quarter(place_) - quarter_before + 1, counts_per_line) - 1;
-  zero_ = decoded(place_) - (count_before + step);
+  const std::int64_t step = floor_remainder(seen_quarter(state_.place) - quarter_before + 1, counts_per_line) - 1;
+  state_.zero = decoded(state_.place) - (count_before + step);
   for (const bool level : {false, true}) {
-    if (!showed[level ? 1 : 0] && shows_event(place_, level)) events_[level ? 1 : 0] = count();
+    if (!showed[level ? 1 : 0] && shows_event(state_.place, level)) state_.events[level ? 1 : 0] = count();
   }
 }
 
@@ -154,7 +155,7 @@ bool ShaftEncoder::is_in_null(std::int64_t place) const {
 }
 
 bool ShaftEncoder::shows_event(std::int64_t place, bool level) const {
-  const bool n = wires_.n_broken || is_in_null(place) == properties_.null_level;
+  const bool n = state_.n_broken || is_in_null(place) == properties_.null_level;
   return n == level && seen_quarter(place) == 0;
 }
 
@@ -198,7 +199,7 @@ std::optional<std::int64_t> ShaftEncoder::last_event_down(std::int64_t before, s
 }
 
 std::optional<std::int64_t> ShaftEncoder::take_null_event(bool level) {
-  return std::exchange(events_[properties_.kind == Kind::absolute || level ? 1 : 0], std::nullopt);
+  return std::exchange(state_.events[properties_.kind == Kind::absolute || level ? 1 : 0], std::nullopt);
 }
 
 EventDistance ShaftEncoder::null_distance(std::int64_t angle) const {

@@ -1,6 +1,7 @@
 // An encoder that turns with the motor's shaft or with what is behind it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -63,16 +64,16 @@ class ShaftEncoder {
 
   /// The shaft, or the load side, has turned. @param angle microsteps
   void follow(std::int64_t angle) {
-    if (const std::int64_t place = place_at(angle); place != place_) move_to(place);
+    if (const std::int64_t place = place_at(angle); place != state_.place) move_to(place);
   }
 
   /// Counts since power-on. Absolute: its lowest ten bits are the angle.
-  std::int64_t count() const { return count_in(place_); }
+  std::int64_t count() const { return count_in(state_.place); }
   /// What count() would be at `angle`.
   std::int64_t count_at(std::int64_t angle) const { return count_in(place_at(angle)); }
 
   /// Within near_counts of the null position, now or at `angle`.
-  bool near_null() const { return is_near_null(place_); }
+  bool near_null() const { return is_near_null(state_.place); }
   bool near_null_at(std::int64_t angle) const { return is_near_null(place_at(angle)); }
 
   /// A null event is the arrival at the null position. An incremental encoder's is seen as N at `level` while A and B
@@ -86,19 +87,29 @@ class ShaftEncoder {
   /// How far from `angle` a null position begins or ends.
   EventDistance null_distance(std::int64_t angle) const;
 
- private:
-  struct Wires {
+  /// All that changes, to be saved and restored.
+  struct State {
+    std::int64_t place = 0;  ///< counts above the place where A and B are first high, over all turns
+    std::int64_t zero = 0;   ///< what a decoder has there for count 0
+    /// Counts at the last null event that was not taken, for N low and for N high.
+    std::array<std::optional<std::int64_t>, 2> events{};
     bool a_broken = false;
     bool b_broken = false;
     bool n_broken = false;
-  };
 
+    friend bool operator==(const State&, const State&) = default;
+  };
+  const State& state() const { return state_; }
+  /// @param state of an encoder with the same properties
+  void restore(const State& state) { state_ = state; }
+
+ private:
   std::int64_t place_at(std::int64_t angle) const { return place_of(properties_.reversed ? -angle : angle); }
   std::int64_t place_of(std::int64_t turned) const;
   std::int64_t harmonic_error(std::int64_t magnet_angle) const;
   std::int64_t first_turned_at(std::int64_t place) const;
-  bool intact() const { return !wires_.a_broken && !wires_.b_broken && !wires_.n_broken; }
-  std::int64_t count_in(std::int64_t place) const { return decoded(place) - zero_; }
+  bool intact() const { return !state_.a_broken && !state_.b_broken && !state_.n_broken; }
+  std::int64_t count_in(std::int64_t place) const { return decoded(place) - state_.zero; }
   std::int64_t decoded(std::int64_t place) const;
   std::int64_t seen_quarter(std::int64_t place) const;
   bool is_near_null(std::int64_t place) const;
@@ -112,10 +123,7 @@ class ShaftEncoder {
 
   EncoderProperties properties_;
   std::int64_t counts_per_turn_;
-  Wires wires_;
-  std::int64_t place_ = 0;                 ///< counts above the place where A and B are first high, over all turns
-  std::int64_t zero_ = 0;                  ///< what decoded() gives at count 0
-  std::optional<std::int64_t> events_[2];  ///< counts at the last null event not taken, for either level of N
+  State state_;
 };
 
 }  // namespace opentmcl::twin

@@ -244,6 +244,23 @@ RC_GTEST_PROP(ShaftEncoder, HasItsNullPositionWhereItSays, ()) {
   RC_ASSERT(in_null(angle - distance.down + 1) == in_null(angle));
 }
 
+RC_GTEST_PROP(ShaftEncoder, GoesOnFromASavedStateAsIfNothingHadBeen, ()) {
+  const EncoderProperties properties = *rc::gen::oneOf(any_incremental(), any_absolute());
+  ShaftEncoder encoder(properties);
+  encoder.break_wire(EncoderChannel::a, *rc::gen::arbitrary<bool>());
+  std::int64_t angle = 0;
+  for (const std::int64_t step : *any_steps()) encoder.follow(angle += step);
+  ShaftEncoder restored(properties);
+  restored.restore(encoder.state());
+  for (const std::int64_t step : *any_steps()) {
+    angle += step;
+    encoder.follow(angle);
+    restored.follow(angle);
+    RC_ASSERT(restored.count() == encoder.count());
+    RC_ASSERT(restored.take_null_event(true) == encoder.take_null_event(true));
+  }
+}
+
 TEST(ShaftEncoder, GoesBackAndForthByOneCountWithOneChannelAlone) {
   for (const EncoderChannel channel : {EncoderChannel::a, EncoderChannel::b}) {
     ShaftEncoder encoder(Kind::incremental);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "twin/physics/ideal_rotor.hpp"
@@ -115,9 +116,12 @@ TEST(Stage, KeepsTheAngleOfAnAbsoluteEncoderWithoutSupply) {
 }
 
 /// Moves around the edge of the left switch, which stands at angle 0; time advances in pieces of at most `stride`.
-std::string trace_at_the_edge(const std::vector<std::int8_t>& targets, Tick stride) {
+/// @param bounce µs
+std::string trace_at_the_edge(const std::vector<std::int8_t>& targets, Tick stride, std::int32_t bounce = 0) {
   TraceText trace;
-  World world(&trace, stage_from(-48'000));
+  World::Mounted mounted = stage_from(-48'000);
+  std::get<LinearStageDimensions>(mounted.machine).switch_bounce = bounce;
+  World world(&trace, mounted);
   start(world);
   for (const std::int8_t target : targets) {
     set<tmc429::TargetPosition>(world, target % 16);
@@ -131,6 +135,35 @@ RC_GTEST_PROP(Stage, GivesTheSameTraceAtEverySpeedAlsoWhereAStepBackPressesASwit
               (const std::vector<std::int8_t>& targets)) {
   const std::string in_leaps = trace_at_the_edge(targets, millisecond * 1000);
   RC_ASSERT(trace_at_the_edge(targets, *rc::gen::inRange<Tick>(1, 3000)) == in_leaps);
+}
+
+RC_GTEST_PROP(Stage, GivesTheSameTraceAtEverySpeedWithContactsThatBounce, ()) {
+  const std::vector<std::int8_t> targets = {-3, 5, -7, *rc::gen::arbitrary<std::int8_t>()};
+  const auto bounce = *rc::gen::inRange(100, 10'000);
+  const std::string in_leaps = trace_at_the_edge(targets, millisecond * 1000, bounce);
+  RC_ASSERT(trace_at_the_edge(targets, *rc::gen::inRange<Tick>(1, 3000), bounce) == in_leaps);
+}
+
+TEST(Stage, ShowsTheChatterOfAContactAtItsInput) {
+  const std::string trace = trace_at_the_edge({5}, millisecond, 1'000);  // off the switch, with 1 ms of bounce
+  const std::size_t first = trace.find(" left_switch 0\n");
+  ASSERT_NE(first, std::string::npos);
+  const std::size_t second = trace.find(" left_switch 1\n", first);
+  ASSERT_NE(second, std::string::npos) << "closed, and open again";
+  EXPECT_EQ(trace.substr(trace.rfind("left_switch"), 13), "left_switch 0") << "closed in the end";
+}
+
+TEST(Stage, MovesAnEncoderOnItsLoadSideOnlyWhenTheBacklashIsTakenUp) {
+  for (const bool on_load_side : {false, true}) {
+    LinearStageDimensions dimensions;
+    dimensions.backlash = 200;  // a tenth of a turn
+    World world(nullptr, {.machine = dimensions, .encoder = ShaftEncoder({.on_load_side = on_load_side})});
+    start(world);
+    set<tmc429::TargetPosition>(world, 25'600);
+    world.advance_to(1000 * millisecond);
+    EXPECT_EQ(world.machine().place(), 800);
+    EXPECT_EQ(world.encoder().count(), on_load_side ? 512 - 103 : 512);
+  }
 }
 
 }  // namespace
