@@ -44,6 +44,7 @@ RC_GTEST_PROP(Contact, ChattersForItsTimeAndEndsInTheTrueState, (std::uint32_t s
   const Tick begin = *rc::gen::inRange<Tick>(1, 1'000'000);
   BouncingContact::change(state, true, begin);
   RC_ASSERT(!contact.is_open(state, begin));
+  RC_ASSERT(contact.next_change(state, begin) == begin + contact.shortest_change());
 
   // From one announced change to the next: every announced one is one, and none comes too early.
   unsigned changes = 0;

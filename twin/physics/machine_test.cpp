@@ -319,6 +319,11 @@ RC_GTEST_PROP(LinearStage, PressesAndReleasesEachSwitchWhereItsDimensionsSay, ()
       }
     }
   }
+  // The slider is at the end of its travel then, whatever the backlash.
+  const std::int64_t at_end = ExactStage(dimensions).place_of(state.driven);
+  const std::int64_t far_end = (rightwards ? 1 : -1) * dimensions.travel / 2 * microsteps_per_turn;
+  RC_ASSERT(std::abs(at_end - far_end) < dimensions.pitch);
+
   // The first edge that is met presses a switch, and the other one, or the hysteresis behind it, lets it go.
   const std::int64_t end = dimensions.travel / 2;
   const std::int64_t near = end - dimensions.limit_switch_distance;

@@ -217,13 +217,21 @@ RC_GTEST_PROP(ShaftEncoder, MeasuresAWholeTurnWithABoundedErrorThatComesAgainEac
   RC_ASSERT((encoder.count_at(angle + 1) - encoder.count_at(angle)) * direction >= 0);
 }
 
-TEST(ShaftEncoder, MeasuresTheSineOfAMagnetOffItsAxis) {
-  EncoderProperties properties{.kind = Kind::absolute};
-  properties.first_harmonic = {.amplitude = 500, .phase = 0};  // 10 counts
-  const ShaftEncoder encoder(properties);
-  const std::pair<std::int64_t, std::int64_t> errors[] = {{0, 0}, {128, 7}, {256, 10}, {512, 0}, {768, -10}, {1024, 0}};
-  for (const auto& [count, error] : errors) {
-    EXPECT_LE(std::abs(encoder.count_at(count * microsteps_per_count) - count - error), 1) << count;
+TEST(ShaftEncoder, MeasuresOneOrTwoSinesATurnWithAMagnetThatIsNotQuiteRight) {
+  EncoderProperties off_axis{.kind = Kind::absolute};
+  off_axis.first_harmonic = {.amplitude = 500, .phase = 0};  // 10 counts
+  EncoderProperties not_round{.kind = Kind::absolute};
+  not_round.second_harmonic = {.amplitude = 500, .phase = microsteps_per_turn / 4};
+  struct Row {
+    std::int64_t count;
+    std::int64_t error_off_axis;
+    std::int64_t error_not_round;
+  };
+  for (const Row& row : {Row{0, 0, 10}, {128, 7, 0}, {256, 10, -10}, {512, 0, 10}, {768, -10, -10}, {896, -7, 0}}) {
+    const std::int64_t angle = row.count * microsteps_per_count;
+    EXPECT_LE(std::abs(ShaftEncoder(off_axis).count_at(angle) - row.count - row.error_off_axis), 1) << row.count;
+    const ShaftEncoder second(not_round);
+    EXPECT_LE(std::abs(second.count_at(angle) - row.count - row.error_not_round), 1) << row.count;
   }
 }
 

@@ -43,8 +43,9 @@ EventDistance SwitchZone::next_change(bool held, std::int64_t angle) const {
     return {angle - (zone.lowest - hysteresis_) + 1, zone.highest + hysteresis_ + 1 - angle};
   }
   EventDistance distance;
+  // Not held, it stands between two ranges: the last that begins below, and the next.
   const std::int64_t period = last_period_from(angle);
-  for (const std::int64_t number : {period - 1, period, period + 1}) {
+  for (const std::int64_t number : {period, period + 1}) {
     if (places_.period == 0 && number != 0) continue;
     const AngleRange zone = range(number);
     if (zone.lowest > zone.highest) continue;
