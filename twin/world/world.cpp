@@ -24,10 +24,7 @@ void World::power_cycle() {
   report(now_, "power", 0);
   powered_at_ = now_;
   tmc429_.emplace(static_cast<StepListener&>(*this));
-  tmc262_ = Tmc262{};
-  tmc262_.set_temperature(temperature_);
-  tmc262_.set_load_measurement(load_measurement_);
-  tmc262_.set_supply_voltage(supply_voltage_);
+  tmc262_.power_up();
   eeprom_.power_up();
   set_outputs(0);
   encoder_.power_up();
@@ -45,6 +42,7 @@ void World::advance_to(Tick tick) {
     const Tick next = std::min({tick, chatter, longest < tick - now_ ? now_ + longest : tick});
     tmc429_->advance(next - now_);
     now_ = next;
+    tmc262_.advance(now_ - powered_at_);
     if (now_ == chatter) update_switches(now_);
   }
 }
@@ -162,7 +160,7 @@ void World::steps(const StepRun& run) {
 void World::step_edge(bool rising, bool direction, std::uint64_t clock) {
   const Tick tick = powered_at_ + clock;
   report(tick, "step", rising);
-  tmc262_.step_edge(rising, direction, clock);
+  tmc262_.steps(1, rising ? StepSignal::rising : StepSignal::falling, direction, clock, clock);
   turn_rotor(tick);
 }
 
