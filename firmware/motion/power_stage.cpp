@@ -71,16 +71,19 @@ void PowerStage::send_changes() {
   apply_driver_settings(settings_, state_, tmc262_);
   if (!(tmc262_.driver_control == before.driver_control)) tmc262_.send(tmc262_.driver_control);
   if (!(tmc262_.chopper_configuration == before.chopper_configuration)) tmc262_.send(tmc262_.chopper_configuration);
-  if (!(tmc262_.cool_step_control == before.cool_step_control)) tmc262_.send(tmc262_.cool_step_control);
+  // coolStep begins at the current that is in force when it is switched on.
   if (!(tmc262_.stall_guard_and_current == before.stall_guard_and_current)) {
     tmc262_.send(tmc262_.stall_guard_and_current);
   }
+  if (!(tmc262_.cool_step_control == before.cool_step_control)) tmc262_.send(tmc262_.cool_step_control);
   if (!(tmc262_.driver_configuration == before.driver_configuration)) tmc262_.send(tmc262_.driver_configuration);
 }
 
 void PowerStage::energise() {
   // With steps from outside it is the steps or the ENABLE input that decide.
   if (takes_external_steps()) return;
+  // While the motor stood nobody looked whether the driver has kept its registers.
+  if (at_rest_) tmc262_.send_all();
   at_rest_ = false;
   if (power_ == Power::run) return;
   constexpr RampState about_to_accelerate{.target_velocity = 1, .at_rest = false};
@@ -91,10 +94,10 @@ Microseconds PowerStage::follow(const RampState& ramp, bool enable, Microseconds
   const CurrentSwitching& switching = switching_of(module_, settings_[AxisParameter::step_direction_mode]);
   Power power = Power::run;
   Microseconds due = never;
+  const bool steps_rest = !takes_external_steps() || tmc262::Reply::Standstill::is_set(tmc262_.refresh());
   if (switching.follows_motion) {
-    bool at_rest = ramp.at_rest || (ramp.held_by_switch && settings_[AxisParameter::end_switch_power_down] != 0);
-    if (takes_external_steps()) at_rest = at_rest && tmc262::Reply::Standstill::is_set(tmc262_.refresh());
-    due = follow_rest(at_rest, now, power);
+    const bool at_rest = ramp.at_rest || (ramp.held_by_switch && settings_[AxisParameter::end_switch_power_down] != 0);
+    due = follow_rest(at_rest && steps_rest, now, power);
   } else if (switching.enable_selects_current && !enable) {
     power = Power::standby;
   }

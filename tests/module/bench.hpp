@@ -14,6 +14,9 @@
 
 namespace opentmcl::tests {
 
+/// A measurement of stallGuard2 that shows 0, a stall, with every threshold (parameter 174).
+inline constexpr std::int32_t measured_at_a_stall = -1'000;
+
 /// One end of a serial line that a test holds.
 class TestPort final : public hal::BytePort {
  public:

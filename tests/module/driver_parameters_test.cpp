@@ -150,11 +150,15 @@ TEST_P(DriverParameters, ConfigureSlopesAndProtection) {
 TEST_P(DriverParameters, ReadLoadFlagsAndCurrentOfTheDriver) {
   bench.command(Opcode::ror, 0, 0, 1000);
   bench.module.world().set_load_measurement(321);
+  bench.set(AxisParameter::stall_guard_threshold, 0);
   bench.wait(1'000 * one_millisecond);
   EXPECT_EQ(bench.get(AxisParameter::actual_load_value), 321);
+  bench.set(AxisParameter::stall_guard_threshold, -20);
+  bench.wait(1'000 * one_millisecond);
+  EXPECT_LT(bench.get(AxisParameter::actual_load_value), 321) << "lower is more sensitive";
   EXPECT_EQ(bench.get(AxisParameter::driver_error_flags), 0);
   EXPECT_EQ(bench.get(AxisParameter::smart_energy_actual_current), 16);
-  bench.module.world().set_load_measurement(0);
+  bench.module.world().set_load_measurement(measured_at_a_stall);
   bench.module.world().set_temperature(120);
   bench.wait(1'000 * one_millisecond);
   EXPECT_EQ(bench.get(AxisParameter::driver_error_flags), 0x05) << "stall and temperature warning";

@@ -23,7 +23,7 @@ class Supervision : public testing::TestWithParam<ModuleId> {
     bench.module.world().set_load_measurement(1023);
     bench.command(Opcode::ror, 0, 0, speed);
     wait_ms(500);
-    bench.module.world().set_load_measurement(0);
+    bench.module.world().set_load_measurement(measured_at_a_stall);
     wait_ms(500);
   }
   /// Without current the shaft stays where it is, and position and encoder part.
@@ -50,7 +50,7 @@ TEST_P(Supervision, StopsWithoutARamp) {
   bench.set(AxisParameter::stall_guard_filter, 0);
   bench.command(Opcode::ror, 0, 0, 2000);
   while (speed() < 1000) wait_ms(100);
-  bench.module.world().set_load_measurement(0);
+  bench.module.world().set_load_measurement(measured_at_a_stall);
   wait_ms(20);
   EXPECT_EQ(speed(), 0) << "at this acceleration a ramp would take seconds";
 }
@@ -94,7 +94,7 @@ TEST_P(Supervision, EndsAReferenceSearchAtAStall) {
   bench.set(AxisParameter::stop_on_stall, 100);
   bench.command(Opcode::rfs, 0);
   wait_ms(500);
-  bench.module.world().set_load_measurement(0);
+  bench.module.world().set_load_measurement(measured_at_a_stall);
   wait_ms(500);
   EXPECT_EQ(speed(), 0);
   EXPECT_EQ(bench.command(Opcode::rfs, 2).value, 15);
@@ -186,7 +186,7 @@ Stalled: SGP 1, 2, 15
 )");
   wait_ms(500);
   EXPECT_EQ(bench.get(AxisParameter::smart_energy_actual_current), 16);
-  bench.module.world().set_load_measurement(0);
+  bench.module.world().set_load_measurement(measured_at_a_stall);
   wait_ms(200);
   EXPECT_EQ(variable(1), 15);
 }
@@ -274,7 +274,7 @@ TEST_P(Supervision, TellsTheProgramByErrorFlagsUntilItClearsThem) {
       {"stall in a move", Opcode::mvp, 50'000,
        [](Bench& b) {
          b.set(AxisParameter::stop_on_stall, 100);
-         b.module.world().set_load_measurement(0);
+         b.module.world().set_load_measurement(measured_at_a_stall);
        },
        epo},
       {"a limit switch on the way", Opcode::mvp, 50'000,

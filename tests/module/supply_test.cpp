@@ -129,6 +129,55 @@ TEST_P(Supply, GivesThemBackAfterADipTooShortToBeSeenToo) {
   EXPECT_EQ(bench.get(AxisParameter::actual_speed), 500);
 }
 
+TEST_P(Supply, GivesThemBackBeforeTheNextMotionAfterADipAtRest) {
+  bench.set(AxisParameter::microstep_resolution, 6);
+  bench.set(AxisParameter::maximum_current, 200);
+  const twin::Tmc262& driver = bench.module.world().tmc262();
+  // Soon after a motion, and with the standby current.
+  for (const unsigned rest_ms : {30U, 3'000U}) {
+    for (const bool moves_to_position : {false, true}) {
+      bench.command(Opcode::mvp, 1, 0, 100);
+      bench.wait_until_reached(1'000 * one_millisecond);
+      wait_ms(rest_ms);
+      const std::int64_t angle = bench.module.world().rotor_angle();
+      const std::int32_t position = bench.get(AxisParameter::actual_position);
+      bench.module.world().set_supply_voltage(5'000);
+      bench.module.world().set_supply_voltage(24'000);
+      bench.command(moves_to_position ? Opcode::mvp : Opcode::ror, moves_to_position ? 1 : 0, 0, 800);
+      EXPECT_TRUE(driver.bridges_on());
+      EXPECT_EQ(driver.current_scale(), 25);
+      EXPECT_EQ(driver.microsteps_per_pulse(), 4) << "64 microsteps";
+      EXPECT_TRUE(tmc262::DriverConfiguration::LowSenseVoltage::is_set(driver.driver_configuration()));
+      wait_ms(1'000);
+      bench.command(Opcode::mst);
+      wait_ms(1'000);
+      const std::int64_t way = bench.get(AxisParameter::actual_position) - position;
+      EXPECT_GT(way, 200);
+      // The field jumps with the registers, by not more than a half turn of the currents.
+      EXPECT_NEAR(static_cast<double>(bench.module.world().rotor_angle() - angle), static_cast<double>(4 * way), 512);
+    }
+  }
+}
+
+TEST_P(Supply, GivesThemBackWhileStepsComeFromOutside) {
+  const twin::Tmc262& driver = bench.module.world().tmc262();
+  const std::int32_t last_mode = GetParam() == ModuleId::pd1161 ? 5 : 1;
+  bench.module.world().set_inputs(1U << static_cast<unsigned>(hal::InputPin::step_dir_enable));
+  for (std::int32_t mode = 1; mode <= last_mode; ++mode) {
+    bench.set(AxisParameter::step_direction_mode, mode);
+    wait_ms(100);
+    ASSERT_TRUE(driver.bridges_on()) << mode;
+    bench.module.world().set_supply_voltage(5'000);
+    bench.module.world().set_supply_voltage(24'000);
+    EXPECT_FALSE(driver.bridges_on());
+    for (int looks = 0; looks < 6; ++looks) {
+      bench.module.world().pulse_step_input(false);
+      wait_ms(10);
+    }
+    EXPECT_TRUE(driver.bridges_on()) << mode;
+  }
+}
+
 TEST_P(Supply, BringsTheDriverUpWhenTheMotorSupplyComesLate) {
   power_on_with(0);
   EXPECT_FALSE(can_move());
