@@ -1,7 +1,6 @@
 // The EEPROM of a virtual module in a file, so that it survives the program. The format is in docs/eeprom.md.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -24,7 +23,7 @@ struct EepromFileError {
 
 class EepromFile {
  public:
-  using Image = std::array<std::uint8_t, twin::Eeprom::size>;
+  using Image = twin::Eeprom::Image;
 
   EepromFile(std::string path, const ModuleDescription& module) : path_(std::move(path)), module_(module) {}
 

@@ -28,7 +28,8 @@ void RecordedModule::take_turns_until(Microseconds time) {
     const auto length = static_cast<std::ptrdiff_t>(eeprom.bytes_written() - bytes_written_);
     if (length == 0) continue;
     bytes_written_ = eeprom.bytes_written();
-    const auto* first = eeprom.image().begin() + address_;
+    const Image image = eeprom.image();
+    const auto* first = image.begin() + address_;
     writes_.push_back({address_, {first, first + length}});
   }
 }

@@ -1,7 +1,6 @@
 // A module whose page writes are recorded, and every EEPROM that a power cut during them can leave behind.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -15,7 +14,7 @@
 
 namespace opentmcl::tests {
 
-using Image = std::array<std::uint8_t, twin::Eeprom::size>;
+using Image = twin::Eeprom::Image;
 
 /// The EEPROM as it leaves its factory.
 Image erased_image();
@@ -46,7 +45,7 @@ class RecordedModule final : private twin::TraceObserver {
   /// Lets `duration` pass.
   void wait(Microseconds duration);
 
-  const Image& image() const { return module_.world().eeprom().image(); }
+  Image image() const { return module_.world().eeprom().image(); }
   const std::vector<PageWrite>& writes() const { return writes_; }
   VirtualModule& module() { return module_; }
 

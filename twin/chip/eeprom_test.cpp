@@ -23,8 +23,8 @@ std::vector<std::uint8_t> read(const Eeprom& eeprom, std::uint16_t address, std:
 }
 
 TEST(Eeprom, IsErasedWhenNew) {
-  const Eeprom eeprom;
-  EXPECT_TRUE(std::all_of(eeprom.image().begin(), eeprom.image().end(), [](auto byte) { return byte == 0xFF; }));
+  const Eeprom::Image image = Eeprom().image();
+  EXPECT_TRUE(std::all_of(image.begin(), image.end(), [](auto byte) { return byte == 0xFF; }));
 }
 
 TEST(Eeprom, IsBusyForFiveMillisecondsAfterAPageWrite) {
@@ -73,9 +73,89 @@ RC_GTEST_PROP(Eeprom, KeepsExactlyTheBytesThatWereWrittenBeforeThePowerWasCut, (
   eeprom.write_page(0, bytes.data(), 64, 0);
   eeprom.write_page(64, bytes.data(), 64, 80'000);
   RC_ASSERT(eeprom.power_lost() == (survivors <= 128));
+  const Eeprom::Image image = eeprom.image();
   for (std::size_t i = 0; i < 128; ++i) {
-    RC_ASSERT(eeprom.image()[i] == (i < survivors ? bytes[i % 64] : Eeprom::erased));
+    RC_ASSERT(image[i] == (i < survivors ? bytes[i % 64] : Eeprom::erased));
   }
+}
+
+TEST(Eeprom, KeepsTheLastPageFullOfALongerWrite) {
+  Eeprom eeprom;
+  const auto bytes = counting_bytes(130);
+  eeprom.write_page(64 + 10, bytes.data(), bytes.size(), 0);
+  for (std::size_t i = 66; i < 130; ++i) {
+    EXPECT_EQ(eeprom.image()[64 + (10 + i) % 64], bytes[i]) << i;
+  }
+  EXPECT_EQ(eeprom.image()[128], 0xFF);
+}
+
+RC_GTEST_PROP(Eeprom, TearsAPageWhereTheSupplyFailsInTime, ()) {
+  Eeprom eeprom;
+  const auto old_bytes = counting_bytes(64);
+  eeprom.write_page(128, old_bytes.data(), 64, 0);
+  const auto length = *rc::gen::inRange<std::size_t>(1, 65);
+  const auto offset = *rc::gen::inRange<std::size_t>(0, 64);
+  const std::vector<std::uint8_t> new_bytes(length, 200);
+  const std::uint64_t begin = 80'000;
+  eeprom.write_page(static_cast<std::uint16_t>(128 + offset), new_bytes.data(), length, begin);
+  const auto elapsed = *rc::gen::inRange<std::uint64_t>(0, 90'000);
+  eeprom.lose_power(begin + elapsed);
+  RC_ASSERT(eeprom.power_lost());
+  const Eeprom::Image image = eeprom.image();
+  std::vector<std::uint8_t> expected = old_bytes;
+  for (std::size_t i = 0; i < length; ++i) {
+    // Byte i is finished (i + 1) / length of 5 ms after the beginning.
+    if (elapsed * length >= (i + 1) * 80'000) expected[(offset + i) % 64] = 200;
+  }
+  RC_ASSERT(std::vector<std::uint8_t>(image.begin() + 128, image.begin() + 192) == expected);
+}
+
+TEST(Eeprom, TakesNoWriteBetweenTheLossOfPowerAndPowerUp) {
+  Eeprom eeprom;
+  const std::uint8_t byte = 7;
+  eeprom.lose_power(1'000);
+  eeprom.write_page(0, &byte, 1, 1'000);
+  EXPECT_EQ(eeprom.image()[0], 0xFF);
+  eeprom.power_up();
+  EXPECT_FALSE(eeprom.busy(1'000));
+  eeprom.write_page(0, &byte, 1, 1'000);
+  EXPECT_EQ(eeprom.image()[0], 7);
+}
+
+TEST(Eeprom, SpendsMemoryOnPagesThatHoldSomethingOnly) {
+  Eeprom eeprom;
+  EXPECT_EQ(eeprom.stored_pages(), 0u);
+  const std::vector<std::uint8_t> erased(64, Eeprom::erased);
+  eeprom.write_page(640, erased.data(), 64, 0);
+  EXPECT_EQ(eeprom.stored_pages(), 0u);
+  EXPECT_TRUE(eeprom.busy(1)) << "it takes its time all the same";
+  const std::uint8_t byte = 7;
+  eeprom.write_page(1'000, &byte, 1, 80'000);
+  EXPECT_EQ(eeprom.stored_pages(), 1u);
+  Eeprom second;
+  second.load(eeprom.image());
+  EXPECT_EQ(second.stored_pages(), 1u);
+  second.load(Eeprom().image());
+  EXPECT_EQ(second.stored_pages(), 0u);
+}
+
+/// The pages together behave as one array does.
+RC_GTEST_PROP(Eeprom, ReadsWhatWasWritten, ()) {
+  Eeprom eeprom;
+  Eeprom::Image expected = eeprom.image();
+  std::uint64_t clock = 0;
+  for (int i = 0; i < 20; ++i) {
+    const auto address = *rc::gen::inRange<std::uint16_t>(0, Eeprom::size);
+    const auto bytes = *rc::gen::container<std::vector<std::uint8_t>>(*rc::gen::inRange<std::size_t>(1, 65),
+                                                                      rc::gen::arbitrary<std::uint8_t>());
+    eeprom.write_page(address, bytes.data(), bytes.size(), clock);
+    clock += Eeprom::page_write_clocks;
+    for (std::size_t k = 0; k < bytes.size(); ++k) expected[address / 64 * 64 + (address + k) % 64] = bytes[k];
+  }
+  RC_ASSERT(eeprom.image() == expected);
+  const auto address = *rc::gen::inRange<std::uint16_t>(0, Eeprom::size);
+  const auto bytes = read(eeprom, address, *rc::gen::inRange<std::size_t>(0, 500), clock);
+  for (std::size_t k = 0; k < bytes.size(); ++k) RC_ASSERT(bytes[k] == expected[(address + k) % Eeprom::size]);
 }
 
 TEST(Eeprom, WorksAgainAfterPowerUp) {

@@ -25,6 +25,7 @@ void World::power_cycle() {
   powered_at_ = now_;
   tmc429_.emplace(static_cast<StepListener&>(*this));
   tmc262_.power_up();
+  eeprom_.lose_power(now_);
   eeprom_.power_up();
   set_outputs(0);
   encoder_.power_up();
