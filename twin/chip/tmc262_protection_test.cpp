@@ -99,6 +99,18 @@ TEST_F(Tmc262Short, IsNotLookedForWithTheProtectionOff) {
   EXPECT_FALSE(chip.bridges_on());
 }
 
+TEST_F(Tmc262Short, IsDetectedThreeTimesWhateverElseGoesOn) {
+  chip.set_short_to_ground(Coil::a, true);
+  for (int look = 0; look < 10; ++look) {
+    wait(chopper_cycle / 4);
+    chip.set_temperature(20 + look);
+    set_current_scale(look);
+    switch_bridges_on();
+    pulse(up, 300);
+  }
+  EXPECT_EQ(chip.next_shut_off(), 3 * chopper_cycle);
+}
+
 TEST_F(Tmc262Short, CountsDetectionsUpAndPolarityChangesDown) {
   const auto touch_twice = [this] {
     chip.set_short_to_ground(Coil::a, true);
