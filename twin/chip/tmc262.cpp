@@ -11,7 +11,6 @@ namespace {
 using tmc262::ChopperConfiguration;
 using tmc262::CoilCurrents;
 using tmc262::DriverConfiguration;
-using tmc262::DriverControl;
 using tmc262::Reply;
 using tmc262::ReplyFormat;
 using tmc262::StallGuardAndCurrent;

@@ -11,8 +11,6 @@ using tmc262::DriverControl;
 using tmc262::Reply;
 using Coil = Tmc262::Coil;
 
-constexpr bool up = Tmc262Bench::up;
-
 class Tmc262Protection : public testing::Test, protected Tmc262Bench {
  protected:
   Tmc262Protection() {
@@ -71,7 +69,7 @@ TEST_F(Tmc262Short, IsForgottenOnlyWhenTheDriverIsDisabled) {
   switch_bridges_on();
   EXPECT_FALSE(chip.bridge_on(Coil::b)) << "the word it has already";
   switch_bridges_off();
-  EXPECT_EQ(Reply::Flags::in(reply()) & Reply::ShortToGroundB::mask, 0u);
+  EXPECT_FALSE(Reply::ShortToGroundB::is_set(reply()));
   switch_bridges_on();
   EXPECT_TRUE(chip.bridges_on());
 }

@@ -12,12 +12,9 @@ namespace {
 
 using tmc262::CoolStepControl;
 using tmc262::DriverConfiguration;
-using tmc262::DriverControl;
 using tmc262::Reply;
 using tmc262::ReplyFormat;
 using tmc262::StallGuardAndCurrent;
-
-constexpr bool up = Tmc262Bench::up;
 
 class Tmc262StallGuardValue : public testing::Test, protected Tmc262Bench {
  protected:

@@ -12,13 +12,9 @@ namespace {
 
 using tmc262::ChopperConfiguration;
 using tmc262::CoolStepControl;
-using tmc262::DriverConfiguration;
 using tmc262::DriverControl;
 using tmc262::StallGuardAndCurrent;
 using tmc262::Word;
-
-constexpr bool up = Tmc262Bench::up;
-constexpr bool down = Tmc262Bench::down;
 
 class Tmc262Resolution : public testing::TestWithParam<int>, protected Tmc262Bench {};
 

@@ -23,8 +23,6 @@ using tmc262::ReplyFormat;
 using tmc262::StallGuardAndCurrent;
 using tmc262::Word;
 
-constexpr bool up = Tmc262Bench::up;
-
 TEST(MicrostepTable, BeginsAndEndsAsPrinted) {
   const std::vector<std::int32_t> first = {1, 2, 4, 5, 7, 8, 10, 11, 13, 14, 16, 17};
   for (std::uint32_t i = 0; i < first.size(); ++i) {
