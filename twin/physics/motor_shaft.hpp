@@ -1,0 +1,132 @@
+// A motor under load, its rotor driven by the field of its coils.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "twin/physics/field.hpp"
+#include "twin/physics/load.hpp"
+#include "twin/physics/motor_data.hpp"
+#include "twin/physics/phase_integrator.hpp"
+#include "twin/physics/tick.hpp"
+#include "twin/physics/torque_table.hpp"
+
+namespace opentmcl::twin {
+
+/// How the rotor is computed. docs/decisions/0038-regimes-of-the-motor.md has the gates between them.
+enum class Regime : std::uint8_t {
+  locked,    ///< the rotor follows the field: a load angle and a damped swing about it, in closed form
+  free,      ///< currents and rotor are integrated in steps of 20 µs
+  slipping,  ///< the field has run away from the rotor for long: integrated in steps of 40 µs
+};
+
+/// The one state is where the rotor is and how fast; regimes differ in how they take it on. Time passes only in
+/// advance_to(): what a span gives depends on where it begins and ends, so spans must be cut where simulated time alone
+/// says.
+class MotorShaft {
+ public:
+  /// @param tables pull-out tables shared by all shafts of a process (lazily filled; never influence results)
+  MotorShaft(const MotorData& motor, std::shared_ptr<TorqueTables> tables);
+
+  // Conditions; they act from now() on. Setting an equal value changes nothing.
+  void set_load(const Load& load) { load_ = load; }
+  void set_supply(double volts) { supply_ = volts; }        ///< at first 24 V
+  void set_ambient(double celsius) { ambient_ = celsius; }  ///< at first 25 °C, the winding too
+  /// Integrates always: what the regimes are measured against, at two hundred times real time.
+  void set_always_free(bool always) { always_free_ = always; }
+
+  const MotorData& motor() const { return motor_; }
+  const Load& load() const { return load_; }
+  double supply() const { return supply_; }
+
+  /// Electrical turns and turns per second of the rotor at now().
+  struct State {
+    double angle;
+    double velocity;
+  };
+  Tick now() const { return memory_.now; }
+  State state() const { return {memory_.rotor.angle, memory_.rotor.velocity}; }
+
+  /// Lets time pass to `end` (> now()) under `field`, which begins at now(). Commits.
+  void advance_to(Tick end, const Field& field);
+  /// The state at `tick` (now() … ) under that field, without letting time pass. advance_to(end) then state() gives
+  /// bit-identically what state_at(end) gave before.
+  State state_at(Tick tick, const Field& field) const;
+
+  /// Nothing moves and nothing will until field, load or supply change: the swing has died down.
+  bool at_rest(const Field& field) const;
+  Regime regime() const { return memory_.regime; }
+  /// Longest span that advance_to() may be given in the present regime, in ticks (10 ms locked and steady, 2 ms locked
+  /// and accelerating, 1 ms free). Multiples of 320 ticks, so that a grid of absolute ticks can be kept.
+  Tick longest_span(const Field& field) const;
+
+  /// For stallGuard2 and for display, of the span that advance_to() last let pass.
+  struct Effort {
+    double torque;           ///< N m of the field on the rotor
+    double pull_out_torque;  ///< N m, the most it could give at this speed
+    double back_emf;         ///< V, peak of each coil
+  };
+  Effort effort() const;
+  /// What stallGuard2 of a TMC262 measures with SGT = 0; not limited to 0…1023: the chip adds SGT and limits.
+  std::int32_t stall_guard_measurement() const;
+  double winding_temperature() const { return memory_.winding_temperature; }  ///< °C
+  /// Coil currents, A, of both coils at now() (exact in the free regime, ideal in the locked one).
+  using Currents = CoilCurrents;
+  Currents currents(const Field& field) const;
+
+  /// All that time changes, for a snapshot; conditions are their owner's.
+  struct Memory {
+    Tick now = 0;
+    PhaseState rotor;
+    Regime regime = Regime::locked;
+    Tick calm = 0;                    ///< ticks for which a free rotor has swung little
+    Tick running_away = 0;            ///< ticks for which the field has been running away from it
+    double winding_temperature = 25;  ///< °C
+    double torque = 0;                ///< N m of the field in the last span
+    double amplitude = 0;             ///< A, of the field in the last span
+
+    friend bool operator==(const Memory&, const Memory&) = default;
+  };
+  const Memory& memory() const { return memory_; }
+  void restore(const Memory& memory) { memory_ = memory; }
+
+ private:
+  struct Limits;
+  struct Equilibrium;
+
+  Memory after(Tick end, const Field& field) const;
+  std::optional<Memory> locked_after(Tick end, const Field& field) const;
+  std::optional<Memory> following(const Field& field, double seconds) const;
+  std::optional<Memory> settling(const Field& field, double seconds) const;
+  Memory integrated(Tick end, const Field& field) const;
+
+  std::optional<Equilibrium> moving_equilibrium(double angle, double velocity, double acceleration,
+                                                const TorqueTable& table, const Limits& limits) const;
+  std::optional<Equilibrium> standing_equilibrium(double angle, const TorqueTable& table, const Limits& limits) const;
+  bool calm(const Field& field, double seconds, const PhaseState& rotor) const;
+  bool can_lock(const Field& field) const;
+  PhaseState entering_free(const Field& field) const;
+
+  double inertia() const { return motor_.rotor_inertia + load_.inertia; }
+  double friction() const { return motor_.coulomb_friction + load_.coulomb_friction; }
+  double drag() const { return motor_.viscous_friction + load_.viscous_friction; }
+  double swing_decay() const { return (drag() + motor_.eddy_damping) / (2 * inertia()); }
+  MotorConditions conditions() const;
+  const TorqueTable& table(double amplitude) const;
+  double standing_torque(const Field& field, double rotor_angle) const;
+  double heated(double seconds, const Field& field) const;
+
+  MotorData motor_;
+  std::shared_ptr<TorqueTables> tables_;
+  Load load_;
+  double supply_ = 24;
+  double ambient_ = 25;
+  bool always_free_ = false;
+  Memory memory_;
+
+  mutable TorqueTables::Key table_key_{};  ///< of table_
+  mutable std::shared_ptr<const TorqueTable> table_;
+};
+
+}  // namespace opentmcl::twin
