@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Turns motors.toml into the rows of a C++ table, so that the twin needs no TOML reader.
+"""Turns motors.toml into C++, so that the twin needs no TOML reader.
 
-    motor_table.py motors.toml motors.inc
+    motor_table.py motors.toml motors.cpp
 
 Every value is checked; a mistake ends with the motor, the key and the range it left.
 """
@@ -26,6 +26,20 @@ NUMBERS = {
     "stall_guard_gain": ("stall_guard_gain", 0.01, 100),
 }
 TEXTS = ("name", "source")
+
+SOURCE = """// Made from motors.toml.
+#include "twin/physics/motor_data.hpp"
+
+namespace opentmcl::twin {{
+
+std::span<const MotorData> motors() {{
+  static constexpr MotorData table[] = {{
+{rows}  }};
+  return table;
+}}
+
+}}  // namespace opentmcl::twin
+"""
 
 
 class Mistake(Exception):
@@ -73,7 +87,7 @@ def rows(document):
     for motor in motors:
         fields = [f'.{key} = "{motor[key]}"' for key in TEXTS]
         fields += [f".{member} = {float(motor[key])!r}" for key, (member, _, _) in NUMBERS.items()]
-        yield "{" + ", ".join(fields) + "},\n"
+        yield "      {" + ", ".join(fields) + "},\n"
 
 
 def main(arguments):
@@ -81,10 +95,10 @@ def main(arguments):
         sys.exit(__doc__)
     source = pathlib.Path(arguments[1])
     try:
-        table = "".join(rows(tomllib.loads(source.read_text(encoding="utf-8"))))
+        text = SOURCE.format(rows="".join(rows(tomllib.loads(source.read_text(encoding="utf-8")))))
     except (Mistake, tomllib.TOMLDecodeError) as error:
         sys.exit(f"{source}: error: {error}")
-    pathlib.Path(arguments[2]).write_text(table, encoding="utf-8")
+    pathlib.Path(arguments[2]).write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -44,10 +44,9 @@ double lead(double field_angle, double rotor_angle, double expected) {
 
 /// Where the closed form is trusted. Going back to it asks for more than staying.
 struct MotorShaft::Limits {
-  double torque_share;            ///< of the pull-out torque
-  double saturated_torque_share;  ///< the same where the supply limits the currents
-  double swing;                   ///< electrical radians
-  double angle_share;             ///< load angle and swing together, of the pull-out angle
+  double torque_share;  ///< of the pull-out torque
+  double swing;         ///< electrical radians
+  double angle_share;   ///< load angle and swing together, of the pull-out angle
 };
 
 namespace {
@@ -132,24 +131,26 @@ constexpr double stay_torque = 0.95;
 std::optional<MotorShaft::Memory> MotorShaft::locked_after(Tick end, const Field& field) const {
   if (!can_lock(field)) return std::nullopt;
   const double seconds = seconds_of(end - memory_.now);
-  return field.stands() ? settling(field, seconds) : following(field, seconds);
+  if (field.stands()) return settling(field, seconds);
+  if (auto cruise = cruising(field, seconds)) return cruise;
+  return following(field, seconds);
+}
+
+/// What the field must give at a place: T = T_load + spring + friction + B w + J dw/dt, N m.
+double MotorShaft::moving_torque(double angle, double velocity, double acceleration) const {
+  const double direction = velocity != 0 ? sign(velocity) : sign(acceleration);
+  return load_.torque + load_.spring * shaft_radians * (angle - load_.spring_centre) + direction * friction() +
+         shaft_radians * (drag() * velocity + inertia() * acceleration);
 }
 
 std::optional<MotorShaft::Equilibrium> MotorShaft::moving_equilibrium(double angle, double velocity,
                                                                       double acceleration, const TorqueTable& table,
                                                                       const Limits& limits) const {
   if (std::fabs(velocity) >= TorqueTable::highest_speed) return std::nullopt;
+  const double torque = moving_torque(angle, velocity, acceleration);
   const double direction = velocity != 0 ? sign(velocity) : sign(acceleration);
-  // T = T_load + spring + friction + B w + J dw/dt
-  const double torque = load_.torque + load_.spring * shaft_radians * (angle - load_.spring_centre) +
-                        direction * friction() + shaft_radians * (drag() * velocity + inertia() * acceleration);
   const TorqueTable::Point point = table.at(direction < 0 ? -std::fabs(velocity) : std::fabs(velocity), torque);
-  if (std::fabs(torque) > limits.torque_share * point.pull_out_torque) return std::nullopt;
-  if (point.saturated &&
-      (std::fabs(torque) > limits.saturated_torque_share * point.pull_out_torque ||
-       !swings_die_down(point.response, inertia(), drag() + motor_.eddy_damping, decay_share * swing_decay()))) {
-    return std::nullopt;
-  }
+  if (point.saturated || std::fabs(torque) > limits.torque_share * point.pull_out_torque) return std::nullopt;
   return Equilibrium{point.load_angle, point.stiffness + load_.spring / MotorData::pole_pairs, torque,
                      limits.angle_share * point.pull_out_angle};
 }
@@ -168,8 +169,7 @@ static bool shakes(double first_velocity, double last_velocity, double natural_f
 
 /// The field turns, and the rotor with it.
 std::optional<MotorShaft::Memory> MotorShaft::following(const Field& field, double seconds) const {
-  constexpr Limits to_stay{
-      .torque_share = stay_torque, .saturated_torque_share = 0.5, .swing = 0.5, .angle_share = 0.9};
+  constexpr Limits to_stay{.torque_share = stay_torque, .swing = 0.15, .angle_share = 0.9};
   const TorqueTable& torques = table(field.amplitude);
   const double end_angle = field.angle_after(seconds);
   const double end_velocity = field.velocity_after(seconds);
@@ -211,6 +211,26 @@ std::optional<MotorShaft::Memory> MotorShaft::following(const Field& field, doub
   return result;
 }
 
+/// The field turns evenly under the conditions of a motion that has settled: the rotor keeps its lead.
+std::optional<MotorShaft::Memory> MotorShaft::cruising(const Field& field, double seconds) const {
+  const Cruise& cruise = memory_.cruise;
+  if (cruise.velocity == 0 || field.velocity != cruise.velocity || field.acceleration != 0 ||
+      cruise.conditions != TorqueTables::key(supply_, field.amplitude, memory_.winding_temperature) ||
+      cruise.torque != moving_torque(memory_.rotor.angle, field.velocity, 0)) {
+    return std::nullopt;
+  }
+  const double mean = (cruise.least_lead + cruise.most_lead) / 2;
+  const double pole = nearest_integer(field.angle - memory_.rotor.angle - mean);
+  const double reach = std::fabs(field.velocity) * seconds + 0.5;
+  if (memory_.rotor.angle - reach < load_.lowest_angle || memory_.rotor.angle + reach > load_.highest_angle)
+    return std::nullopt;
+  Memory result = memory_;
+  result.rotor.angle = field.angle_after(seconds) - pole - mean;
+  result.rotor.velocity = field.velocity;
+  result.torque = cruise.torque;
+  return result;
+}
+
 std::optional<MotorShaft::Equilibrium> MotorShaft::standing_equilibrium(double angle, const TorqueTable& table,
                                                                         const Limits& limits) const {
   const double most = table.pull_out_torque(0);
@@ -236,7 +256,7 @@ std::optional<MotorShaft::Equilibrium> MotorShaft::standing_equilibrium(double a
 
 /// The field stands, and the rotor comes to rest: half swings, each about a place that friction has moved against it.
 std::optional<MotorShaft::Memory> MotorShaft::settling(const Field& field, double seconds) const {
-  constexpr Limits to_stay{.torque_share = stay_torque, .saturated_torque_share = 1, .swing = 0.5, .angle_share = 0.9};
+  constexpr Limits to_stay{.torque_share = stay_torque, .swing = 0.15, .angle_share = 0.9};
   // A spring moves the equilibrium of each pole to another place.
   const double pole = nearest_integer(field.angle - memory_.rotor.angle);
   const double angle = field.angle - pole;
@@ -303,16 +323,54 @@ MotorShaft::Memory MotorShaft::integrated(Tick end, const Field& field) const {
   }
 
   result.calm = calm(field, seconds, result.rotor) ? memory_.calm + span : 0;
+  result.cruise = observed_cruise(field, span, result.rotor);
   if (result.calm >= calm_time) {
     result.regime = Regime::locked;
     result.calm = 0;
+    result.cruise = {};
+  } else if (settled(field, result.cruise)) {
+    result.regime = Regime::locked;
   }
   return result;
 }
 
+/// The lead that the rotor has kept under the present conditions.
+MotorShaft::Cruise MotorShaft::observed_cruise(const Field& field, Tick span, const PhaseState& rotor) const {
+  /// Electrical turns; wider is no even motion.
+  constexpr double band = 0.01;
+  if (!can_lock(field) || field.velocity == 0 || field.acceleration != 0 || load_.spring != 0) return {};
+  const double lead = field.angle_after(seconds_of(span)) - rotor.angle;
+  const double here = lead - nearest_integer(lead);
+  Cruise result{.velocity = field.velocity,
+                .torque = moving_torque(rotor.angle, field.velocity, 0),
+                .conditions = TorqueTables::key(supply_, field.amplitude, memory_.winding_temperature),
+                .least_lead = here,
+                .most_lead = here,
+                .quiet = 0};
+  const Cruise& before = memory_.cruise;
+  if (before.velocity == result.velocity && before.torque == result.torque && before.conditions == result.conditions) {
+    const double least = std::min(before.least_lead, here);
+    const double most = std::max(before.most_lead, here);
+    if (most - least < band) {
+      result.least_lead = least;
+      result.most_lead = most;
+      result.quiet = before.quiet + span;
+    }
+  }
+  return result;
+}
+
+bool MotorShaft::settled(const Field& field, const Cruise& cruise) const {
+  constexpr Tick settling_time = 100 * ticks_per_millisecond;
+  if (cruise.quiet < settling_time) return false;
+  const TorqueTable::Point point = table(field.amplitude).at(cruise.velocity, cruise.torque);
+  return point.saturated && std::fabs(cruise.torque) < stay_torque * point.pull_out_torque &&
+         swings_die_down(point.response, inertia(), drag() + motor_.eddy_damping, decay_share * swing_decay());
+}
+
 /// Whether the closed form can take over at the end of a span.
 bool MotorShaft::calm(const Field& field, double seconds, const PhaseState& rotor) const {
-  constexpr Limits to_return{.torque_share = 0.88, .saturated_torque_share = 0.45, .swing = 0.3, .angle_share = 0.85};
+  constexpr Limits to_return{.torque_share = 0.88, .swing = 0.1, .angle_share = 0.85};
   if (!can_lock(field)) return false;
   const double angle = field.angle_after(seconds);
   const double velocity = field.velocity_after(seconds);

@@ -75,6 +75,19 @@ class MotorShaft {
   using Currents = CoilCurrents;
   Currents currents(const Field& field) const;
 
+  /// An even motion beyond the voltage limit, where no closed form is exact enough: the lead it has settled at is
+  /// measured.
+  struct Cruise {
+    double velocity = 0;  ///< electrical turns per second; 0: none
+    double torque = 0;    ///< N m
+    TorqueTables::Key conditions{};
+    double least_lead = 0;  ///< electrical turns, seen since these conditions hold
+    double most_lead = 0;
+    Tick quiet = 0;  ///< ticks for which the lead has stayed within a narrow band
+
+    friend bool operator==(const Cruise&, const Cruise&) = default;
+  };
+
   /// All that time changes, for a snapshot; conditions are their owner's.
   struct Memory {
     Tick now = 0;
@@ -85,6 +98,7 @@ class MotorShaft {
     double winding_temperature = 25;  ///< °C
     double torque = 0;                ///< N m of the field in the last span
     double amplitude = 0;             ///< A, of the field in the last span
+    Cruise cruise;
 
     friend bool operator==(const Memory&, const Memory&) = default;
   };
@@ -99,11 +113,15 @@ class MotorShaft {
   std::optional<Memory> locked_after(Tick end, const Field& field) const;
   std::optional<Memory> following(const Field& field, double seconds) const;
   std::optional<Memory> settling(const Field& field, double seconds) const;
+  std::optional<Memory> cruising(const Field& field, double seconds) const;
   Memory integrated(Tick end, const Field& field) const;
 
+  double moving_torque(double angle, double velocity, double acceleration) const;
   std::optional<Equilibrium> moving_equilibrium(double angle, double velocity, double acceleration,
                                                 const TorqueTable& table, const Limits& limits) const;
   std::optional<Equilibrium> standing_equilibrium(double angle, const TorqueTable& table, const Limits& limits) const;
+  Cruise observed_cruise(const Field& field, Tick span, const PhaseState& rotor) const;
+  bool settled(const Field& field, const Cruise& cruise) const;
   bool calm(const Field& field, double seconds, const PhaseState& rotor) const;
   bool can_lock(const Field& field) const;
   PhaseState entering_free(const Field& field) const;

@@ -13,7 +13,7 @@ constexpr std::size_t angle_count = 181;
 constexpr double angle_distance = (highest_angle - lowest_angle) / (angle_count - 1);
 
 /// From here on a chopper's voltage is no longer seen as free of limits: ripple takes the rest.
-constexpr double saturation = 0.97;
+constexpr double saturation = 0.95;
 
 /// Of the pull-out torque; at the top of the curve there is none.
 constexpr double least_stiffness = 1e-4;
