@@ -54,10 +54,11 @@ constexpr double decay_share = 0.5;  ///< of the swing's decay at low speed, tha
 }
 
 struct MotorShaft::Equilibrium {
-  double lead;       ///< radians by which the field leads the rotor
-  double stiffness;  ///< N m per electrical radian
-  double torque;     ///< N m of the field
-  double most_lead;  ///< radians, with a swing
+  double lead;             ///< radians by which the field leads the rotor
+  double stiffness;        ///< N m per electrical radian
+  double torque;           ///< N m of the field
+  double most_lead;        ///< radians, with a swing
+  double pull_out_torque;  ///< N m
 };
 
 MotorShaft::MotorShaft(const MotorData& motor, std::shared_ptr<TorqueTables> tables)
@@ -84,6 +85,7 @@ MotorShaft::Memory MotorShaft::after(Tick end, const Field& field) const {
     result.calm = 0;
     result.running_away = 0;
     result.torque = field_torque(motor_, result.rotor);
+    result.pull_out_torque = pull_out_torque(field.amplitude, 0);
   } else if (auto locked =
                  memory_.regime == Regime::locked && !always_free_ ? locked_after(end, field) : std::nullopt) {
     result = *locked;
@@ -152,7 +154,7 @@ std::optional<MotorShaft::Equilibrium> MotorShaft::moving_equilibrium(double ang
   const TorqueTable::Point point = table.at(direction < 0 ? -std::fabs(velocity) : std::fabs(velocity), torque);
   if (point.saturated || std::fabs(torque) > limits.torque_share * point.pull_out_torque) return std::nullopt;
   return Equilibrium{point.load_angle, point.stiffness + load_.spring / MotorData::pole_pairs, torque,
-                     limits.angle_share * point.pull_out_angle};
+                     limits.angle_share * point.pull_out_angle, point.pull_out_torque};
 }
 
 /// Detent resonances: the field passes four detents an electrical turn, and the rotor answers strongly where that is
@@ -203,11 +205,14 @@ std::optional<MotorShaft::Memory> MotorShaft::following(const Field& field, doub
     return std::nullopt;
   }
 
-  const Swing then = oscillator.after(swing, seconds);
+  // What rounding leaves of a swing that died down long ago.
+  constexpr double no_swing = 1e-8;
+  const Swing then = amplitude < no_swing ? Swing{} : oscillator.after(swing, seconds);
   Memory result = memory_;
   result.rotor.angle = end_angle - pole - (last->lead + then.deviation) / radians_per_turn;
   result.rotor.velocity = end_velocity - (drift + then.rate) / radians_per_turn;
   result.torque = last->torque;
+  result.pull_out_torque = last->pull_out_torque;
   return result;
 }
 
@@ -251,7 +256,7 @@ std::optional<MotorShaft::Equilibrium> MotorShaft::standing_equilibrium(double a
   }
   const double torque = most * unit_phasor(load_angle / radians_per_turn).across;
   if (std::fabs(torque) > limits.torque_share * most) return std::nullopt;
-  return Equilibrium{load_angle, stiffness, torque, limits.angle_share * std::numbers::pi / 2};
+  return Equilibrium{load_angle, stiffness, torque, limits.angle_share * std::numbers::pi / 2, most};
 }
 
 /// The field stands, and the rotor comes to rest: half swings, each about a place that friction has moved against it.
@@ -295,6 +300,7 @@ std::optional<MotorShaft::Memory> MotorShaft::settling(const Field& field, doubl
   result.rotor.angle = rotor_angle();
   result.rotor.velocity = -swing.rate / radians_per_turn;
   result.torque = centre->torque;
+  result.pull_out_torque = centre->pull_out_torque;
   return result;
 }
 
@@ -306,6 +312,7 @@ MotorShaft::Memory MotorShaft::integrated(Tick end, const Field& field) const {
   const PhaseState begin = memory_.regime == Regime::locked ? entering_free(field) : memory_.rotor;
   result.rotor = integrate(conditions(), field, begin, memory_.now, end, slipping ? slipping_step : free_step);
   result.torque = field_torque(motor_, result.rotor);
+  result.pull_out_torque = pull_out_torque(field.amplitude, result.rotor.velocity);
   result.regime = slipping ? Regime::slipping : Regime::free;
   if (always_free_) return result;
 
@@ -426,7 +433,7 @@ MotorConditions MotorShaft::conditions() const {
 const TorqueTable& MotorShaft::table(double amplitude) const {
   const TorqueTables::Key key = TorqueTables::key(supply_, amplitude, memory_.winding_temperature);
   if (!table_ || key != table_key_) {
-    table_ = tables_->table(motor_, supply_, amplitude, memory_.winding_temperature);
+    table_ = tables_->table(motor_, key);
     table_key_ = key;
   }
   return *table_;
@@ -440,10 +447,14 @@ double MotorShaft::standing_torque(const Field& field, double rotor_angle) const
 }
 
 MotorShaft::Effort MotorShaft::effort() const {
-  const double speed = std::fabs(memory_.rotor.velocity);
-  const double most =
-      memory_.amplitude > 0 && speed < TorqueTable::highest_speed ? table(memory_.amplitude).pull_out_torque(speed) : 0;
-  return {memory_.torque, most, motor_.torque_constant() * speed * shaft_radians};
+  return {memory_.torque, memory_.pull_out_torque,
+          motor_.torque_constant() * std::fabs(memory_.rotor.velocity) * shaft_radians};
+}
+
+/// N m; 0 without current and beyond every table.
+double MotorShaft::pull_out_torque(double amplitude, double velocity) const {
+  if (amplitude <= 0 || std::fabs(velocity) >= TorqueTable::highest_speed) return 0;
+  return table(amplitude).pull_out_torque(velocity);
 }
 
 std::int32_t MotorShaft::stall_guard_measurement() const {
@@ -467,9 +478,10 @@ double MotorShaft::heated(double seconds, const Field& field) const {
   const double share = field.energised ? field.amplitude / (MotorData::square_root_of_two * motor_.rated_current) : 0;
   const double warmer = conditions().resistance / motor_.winding_resistance;
   const double final_temperature = ambient_ + motor_.temperature_rise_at_rated_current * coils * share * share * warmer;
-  // tau dTw/dt = T_final - Tw
-  const double kept = exponential(-seconds / motor_.winding_time_constant);
-  return final_temperature + (memory_.winding_temperature - final_temperature) * kept;
+  // tau dTw/dt = T_final - Tw. Most spans are so short that the series of e^-x needs no third term.
+  const double time = seconds / motor_.winding_time_constant;
+  const double gone = time < 1e-5 ? time * (1 - 0.5 * time) : 1 - exponential(-time);
+  return memory_.winding_temperature + (final_temperature - memory_.winding_temperature) * gone;
 }
 
 }  // namespace opentmcl::twin

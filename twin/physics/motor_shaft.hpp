@@ -97,6 +97,7 @@ class MotorShaft {
     Tick running_away = 0;            ///< ticks for which the field has been running away from it
     double winding_temperature = 25;  ///< °C
     double torque = 0;                ///< N m of the field in the last span
+    double pull_out_torque = 0;       ///< N m, the most it could have given
     double amplitude = 0;             ///< A, of the field in the last span
     Cruise cruise;
 
@@ -132,6 +133,7 @@ class MotorShaft {
   double swing_decay() const { return (drag() + motor_.eddy_damping) / (2 * inertia()); }
   MotorConditions conditions() const;
   const TorqueTable& table(double amplitude) const;
+  double pull_out_torque(double amplitude, double velocity) const;
   double standing_torque(const Field& field, double rotor_angle) const;
   double heated(double seconds, const Field& field) const;
 

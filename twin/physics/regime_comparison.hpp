@@ -47,7 +47,8 @@ class RandomMoves {
     move.load.inertia = uniform(0.6, 2.3) * move.motor->rotor_inertia;
     constexpr double ambient = 25;
     const double pull_out =
-        tables.table(*move.motor, ComparedMove::supply, move.amplitude(), ambient)->pull_out_torque(move.velocity);
+        tables.table(*move.motor, TorqueTables::key(ComparedMove::supply, move.amplitude(), ambient))
+            ->pull_out_torque(move.velocity);
     // Half of the loads hang on the shaft, half only rub.
     const double torque = uniform(0, 1.1) * pull_out;
     if (random_() % 2 == 0) {

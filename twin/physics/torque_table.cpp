@@ -148,19 +148,17 @@ TorqueTable::Point TorqueTable::at(double speed, double torque) const {
 }
 
 TorqueTables::Key TorqueTables::key(double supply, double amplitude, double winding_temperature) {
-  return {std::max(0.25, nearest_integer(supply * 4) / 4), nearest_integer(amplitude * 1000) / 1000,
-          20 + nearest_integer((winding_temperature - 20) / 10) * 10};
+  return {std::max(1.0, nearest_integer(supply * 4)), nearest_integer(amplitude * 1000),
+          nearest_integer((winding_temperature - 20) * 0.1)};
 }
 
-std::shared_ptr<const TorqueTable> TorqueTables::table(const MotorData& motor, double supply, double amplitude,
-                                                       double winding_temperature) {
-  const Key rounded = key(supply, amplitude, winding_temperature);
+std::shared_ptr<const TorqueTable> TorqueTables::table(const MotorData& motor, const Key& key) {
   const ElectricalConditions conditions{
       .torque_constant = motor.torque_constant(),
       .inductance = motor.winding_inductance,
-      .resistance = warm_resistance(motor.winding_resistance, rounded.winding_temperature),
-      .supply = rounded.supply,
-      .amplitude = rounded.amplitude,
+      .resistance = warm_resistance(motor.winding_resistance, 20 + 10 * key.ten_kelvins),
+      .supply = key.quarter_volts / 4,
+      .amplitude = key.milliamperes / 1000,
   };
   const std::array<double, 5> place{conditions.torque_constant, conditions.inductance, conditions.resistance,
                                     conditions.supply, conditions.amplitude};

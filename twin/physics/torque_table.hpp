@@ -69,18 +69,17 @@ class TorqueTable {
 /// table.
 class TorqueTables {
  public:
-  /// @param resistance, supply, amplitude  as they are; rounded here
-  std::shared_ptr<const TorqueTable> table(const MotorData& motor, double supply, double amplitude,
-                                           double winding_temperature);
-
-  /// What table() makes of them: two conditions of one motor with equal keys have one table.
+  /// Conditions, rounded: two with equal keys have one table. Whole numbers.
   struct Key {
-    double supply;               ///< V, multiples of 0.25
-    double amplitude;            ///< A, multiples of 0.001
-    double winding_temperature;  ///< °C, 20 and multiples of 10 from there
-    friend auto operator<=>(const Key&, const Key&) = default;
+    double quarter_volts;  ///< of the supply, at least 1
+    double milliamperes;   ///< amplitude
+    double ten_kelvins;    ///< by which the winding is warmer than 20 °C
+    friend bool operator==(const Key&, const Key&) = default;
   };
+  /// @param supply V  @param amplitude A  @param winding_temperature °C
   static Key key(double supply, double amplitude, double winding_temperature);
+
+  std::shared_ptr<const TorqueTable> table(const MotorData& motor, const Key& key);
 
  private:
   /// More tables than a module's 32 currents at a few temperatures need. When there are more, those nobody uses go.
