@@ -78,5 +78,6 @@ RULES = (
 # A test or benchmark next to its source runs on the host: it may use these and the whole standard library on top.
 TEST_SUFFIXES = ("_test.cpp", "_test.hpp", "_bench.cpp")
 TEST_SYSTEM = STANDARD | frozenset(
-    """gtest/gtest.h gmock/gmock.h rapidcheck.h rapidcheck/gtest.h benchmark/benchmark.h""".split()
+    """gtest/gtest.h gmock/gmock.h rapidcheck.h rapidcheck/gtest.h benchmark/benchmark.h
+    boost/numeric/odeint.hpp""".split()
 )

@@ -50,6 +50,13 @@ struct Rates {
   double current_b;
 };
 
+/// What changes its sign when motion or current does, and is held over a step.
+struct Held {
+  double friction;                 ///< N m of Coulomb friction, against the motion
+  double acceleration_per_torque;  ///< 0 for a rotor that does not move
+  Phasor freewheel_rate;           ///< A/s in coils A and B, against their currents
+};
+
 /// Constants of a span, in the units of the equations: electrical turns, seconds, amperes.
 class Equations {
  public:
@@ -74,6 +81,7 @@ class Equations {
   }
 
   double friction() const { return friction_; }
+  double supply_rate() const { return supply_rate_; }
   double acceleration_per_torque() const { return acceleration_per_torque_; }
 
   /// The regulator: u = (i* - i) L / tau + R i + e + L di*/dt, as far as the supply reaches. Here is what does not
@@ -107,15 +115,13 @@ class Equations {
     return sum;
   }
 
-  /// @param friction            torque of Coulomb friction, with its sign
-  /// @param rotor_acceleration  per torque; 0 holds the rotor
   template <bool energised, bool place_dependent>
-  Rates rates(const PhaseState& state, Phasor rotor, const Demand& demand, double friction,
-              double rotor_acceleration) const {
+  Rates rates(const PhaseState& state, Phasor rotor, const Demand& demand, const Held& held) const {
     Rates result{};
     result.velocity = state.velocity;
     // J dw/dt = T
-    result.acceleration = rotor_acceleration * (torque<place_dependent>(state, rotor, demand.velocity) - friction);
+    result.acceleration =
+        held.acceleration_per_torque * (torque<place_dependent>(state, rotor, demand.velocity) - held.friction);
     // L di/dt = u - R i - e, e = Km w (-sin(Nr th), cos(Nr th)); all over L
     const double emf = emf_rate_ * state.velocity;
     const double drop_a = resistance_rate_ * state.current_a - emf * rotor.across;
@@ -127,8 +133,8 @@ class Equations {
       result.current_b = connected_b_ * (limited(wanted_b + drop_b) - drop_b);
     } else {
       // Through the diodes into the supply, until there is no current left.
-      result.current_a = state.current_a == 0 ? 0 : std::copysign(supply_rate_, -state.current_a) - drop_a;
-      result.current_b = state.current_b == 0 ? 0 : std::copysign(supply_rate_, -state.current_b) - drop_b;
+      result.current_a = state.current_a == 0 ? 0 : held.freewheel_rate.along - drop_a;
+      result.current_b = state.current_b == 0 ? 0 : held.freewheel_rate.across - drop_b;
     }
     return result;
   }
@@ -178,16 +184,18 @@ template <bool energised, bool place_dependent>
 PhaseState step(const Equations& equations, const PhaseState& state, Phasor& rotor, const Interval& interval,
                 bool jammed) {
   // Coulomb friction is a force against motion, and holds a shaft at rest against torques up to its own.
-  double friction = std::copysign(equations.friction(), state.velocity);
-  double rotor_acceleration = equations.acceleration_per_torque();
+  Held held{.friction = std::copysign(equations.friction(), state.velocity),
+            .acceleration_per_torque = equations.acceleration_per_torque(),
+            .freewheel_rate = {std::copysign(equations.supply_rate(), -state.current_a),
+                               std::copysign(equations.supply_rate(), -state.current_b)}};
   if (state.velocity == 0) {
     const double torque = equations.template torque<place_dependent>(state, rotor, interval.begin.velocity);
-    friction = std::copysign(equations.friction(), torque);
-    if (jammed || std::fabs(torque) <= equations.friction()) rotor_acceleration = 0;
+    held.friction = std::copysign(equations.friction(), torque);
+    if (jammed || std::fabs(torque) <= equations.friction()) held.acceleration_per_torque = 0;
   }
 
   const auto rates = [&](const PhaseState& at, Phasor direction, const Demand& demand) {
-    return equations.template rates<energised, place_dependent>(at, direction, demand, friction, rotor_acceleration);
+    return equations.template rates<energised, place_dependent>(at, direction, demand, held);
   };
   const double half = interval.seconds / 2;
   const Rates k1 = rates(state, rotor, interval.begin);
@@ -213,10 +221,10 @@ PhaseState step(const Equations& equations, const PhaseState& state, Phasor& rot
 
   if (state.velocity * after.velocity < 0) {
     // The shaft stopped within the step. Friction has turned round since, or holds the shaft from here on.
-    const double without_friction = k4.acceleration / rotor_acceleration + friction;
+    const double without_friction = k4.acceleration / held.acceleration_per_torque + held.friction;
     after.velocity = std::fabs(without_friction) <= equations.friction()
                          ? 0
-                         : after.velocity * (without_friction + friction) / (without_friction - friction);
+                         : after.velocity * (without_friction + held.friction) / (without_friction - held.friction);
     // The torque at the end of the step and the one at the turn can differ in sign; then the shaft is just at rest.
     if (state.velocity * after.velocity > 0) after.velocity = 0;
   }

@@ -81,6 +81,8 @@ class TorqueTables {
 
   std::shared_ptr<const TorqueTable> table(const MotorData& motor, const Key& key);
 
+  std::size_t size() const { return tables_.size(); }
+
  private:
   /// More tables than a module's 32 currents at a few temperatures need. When there are more, those nobody uses go.
   static constexpr std::size_t most_tables = 256;
