@@ -476,7 +476,11 @@ MotorShaft::Currents MotorShaft::currents(const Field& field) const {
 double MotorShaft::heated(double seconds, const Field& field) const {
   const double coils = (field.coil_a_connected ? 0.5 : 0) + (field.coil_b_connected ? 0.5 : 0);
   const double share = field.energised ? field.amplitude / (MotorData::square_root_of_two * motor_.rated_current) : 0;
-  const double warmer = conditions().resistance / motor_.winding_resistance;
+  // The rise at the rated current is that of a winding that has become warm.
+  constexpr double usual_ambient = 25;
+  const double warmer =
+      conditions().resistance /
+      warm_resistance(motor_.winding_resistance, usual_ambient + motor_.temperature_rise_at_rated_current);
   const double final_temperature = ambient_ + motor_.temperature_rise_at_rated_current * coils * share * share * warmer;
   // tau dTw/dt = T_final - Tw. Most spans are so short that the series of e^-x needs no third term.
   const double time = seconds / motor_.winding_time_constant;
