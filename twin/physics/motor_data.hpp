@@ -1,6 +1,7 @@
 // What a data sheet says about a stepper motor, and what it leaves out.
 #pragma once
 
+#include <numbers>
 #include <span>
 #include <string_view>
 
@@ -27,12 +28,15 @@ struct MotorData {
 
   /// Rotor teeth: electrical turns a turn of the shaft. One electrical turn is four full steps.
   static constexpr double pole_pairs = 50;
+  /// Of the shaft, in an electrical turn.
+  static constexpr double shaft_radians_per_turn = 2 * std::numbers::pi / pole_pairs;
 
   /// Torque per ampere of the current that is at right angles to the rotor, N m / A of the sine's peak; and back-EMF
   /// per speed of the shaft, V s/rad of the sine's peak: the same number (QSH5718 manual V2.6, chapter 4).
-  double torque_constant() const { return holding_torque / (square_root_of_two * rated_current); }
+  double torque_constant() const { return holding_torque / rated_amplitude(); }
 
-  static constexpr double square_root_of_two = 1.4142135623730951;
+  /// A, peak of the sine whose rms value is the rated current.
+  double rated_amplitude() const { return std::numbers::sqrt2 * rated_current; }
 
   friend bool operator==(const MotorData&, const MotorData&) = default;
 };

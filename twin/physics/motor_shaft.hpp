@@ -123,6 +123,8 @@ class MotorShaft {
   std::optional<Equilibrium> standing_equilibrium(double angle, const TorqueTable& table, const Limits& limits) const;
   Cruise observed_cruise(const Field& field, Tick span, const PhaseState& rotor) const;
   bool settled(const Field& field, const Cruise& cruise) const;
+  double natural_frequency(const Equilibrium& equilibrium) const;
+  bool swings(double frequency) const;
   bool calm(const Field& field, double seconds, const PhaseState& rotor) const;
   bool can_lock(const Field& field) const;
   PhaseState entering_free(const Field& field) const;

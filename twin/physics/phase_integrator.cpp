@@ -8,8 +8,7 @@
 namespace opentmcl::twin {
 namespace {
 
-/// Radians of the shaft in an electrical turn.
-constexpr double shaft_radians = radians_per_turn / MotorData::pole_pairs;
+constexpr double shaft_radians = MotorData::shaft_radians_per_turn;
 
 double inertia_of(const MotorConditions& conditions) {
   return conditions.motor->rotor_inertia + conditions.load->inertia;
@@ -279,7 +278,7 @@ PhaseState integrate_as(const Equations& equations, const Field& field, PhaseSta
     Tick until = std::min(end, next_line);
     if (next_step != field.steps.end()) until = std::min(until, next_step->tick);
     Interval interval{};
-    interval.seconds = static_cast<double>(until - now) * seconds_per_tick;
+    interval.seconds = seconds_of(until - now);
     interval.begin = demand;
     moving.advance(interval.seconds / 2);
     interval.middle = moving.demand(equations);
@@ -303,7 +302,7 @@ PhaseState integrate(const MotorConditions& conditions, const Field& field, cons
   if (!field.coil_b_connected) first.current_b = 0;
   if (load.jammed) first.velocity = 0;
   // Most spans lie far from the ends. What is beyond the reach of the rotor changes nothing and need not be asked for.
-  const double seconds = static_cast<double>(end - begin) * seconds_per_tick;
+  const double seconds = seconds_of(end - begin);
   const double strongest = 2 * conditions.motor->torque_constant() *
                                std::max(field.amplitude, std::fabs(state.current_a) + std::fabs(state.current_b)) +
                            conditions.motor->detent_torque + std::fabs(load.torque);

@@ -13,7 +13,6 @@
 namespace opentmcl::twin {
 namespace {
 
-constexpr Tick millisecond = 1000 * ticks_per_microsecond;
 constexpr Tick grid = 20 * ticks_per_microsecond;
 constexpr double turns_per_second_and_rpm = MotorData::pole_pairs / 60;
 constexpr double degrees_per_turn = 360;
@@ -24,7 +23,7 @@ class Bench {
   explicit Bench(const char* name = "QSH5718-41-28-055") : motor(*find_motor(name)) {
     load.inertia = 1e-5;
     field.energised = true;
-    field.amplitude = motor.rated_current * MotorData::square_root_of_two;
+    field.amplitude = motor.rated_amplitude();
   }
 
   MotorConditions conditions() const { return {&motor, &load, supply, motor.winding_resistance}; }
@@ -33,7 +32,7 @@ class Bench {
 
   void run_ticks(Tick span) {
     for (Tick left = span; left > 0;) {
-      const Tick part = std::min(left, millisecond);
+      const Tick part = std::min(left, ticks_per_millisecond);
       state = integrate(conditions(), field, state, now, now + part, step);
       now += part;
       left -= part;
@@ -58,7 +57,7 @@ class Bench {
     double sum = 0;
     int count = 0;
     for (const Tick end = now + static_cast<Tick>(seconds / seconds_per_tick); now < end; ++count) {
-      run_ticks(millisecond);
+      run_ticks(ticks_per_millisecond);
       sum += lead();
     }
     return sum / count * degrees_per_turn;
@@ -69,7 +68,7 @@ class Bench {
     const double torque = load.torque;
     while (std::fabs(lead()) < 1 && seconds() < 10) {
       load.torque = torque + torque_per_second * (seconds() - begin + 0.5e-3);
-      run_ticks(millisecond);
+      run_ticks(ticks_per_millisecond);
     }
     return seconds();
   }
@@ -266,7 +265,7 @@ TEST(PhaseIntegrator, LosesEnergyAllTheTimeWithoutCurrent) {
   };
   double before = energy();
   for (int i = 0; i < 100 && bench.state.velocity != 0; ++i) {
-    bench.run_ticks(millisecond);
+    bench.run_ticks(ticks_per_millisecond);
     EXPECT_LT(energy(), before);
     before = energy();
   }
@@ -303,7 +302,7 @@ TEST(PhaseIntegrator, CurrentsAreGoneAMillisecondAfterTheBridges) {
   bench.run(0.01);
   EXPECT_NEAR(bench.state.current_a, bench.field.amplitude, 0.01);
   bench.field.energised = false;
-  bench.run_ticks(millisecond);
+  bench.run_ticks(ticks_per_millisecond);
   EXPECT_EQ(bench.state.current_a, 0);
 }
 
@@ -321,7 +320,7 @@ TEST(PhaseIntegrator, AnEndStopsTheShaft) {
   bench.load.highest_angle = 3;
   bench.field.velocity = 20;
   for (int i = 0; i < 500; ++i) {
-    bench.run_ticks(millisecond);
+    bench.run_ticks(ticks_per_millisecond);
     // Full torque into 300 N m per rad, and what a rotor that bounces makes of it.
     EXPECT_LT(bench.state.angle, 3 + 0.1);
   }

@@ -2,6 +2,7 @@
 // computing a motor is held against the true one. Used by a test and by a program.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -9,6 +10,7 @@
 #include <optional>
 #include <random>
 
+#include "twin/physics/elementary.hpp"
 #include "twin/physics/motor_shaft.hpp"
 
 namespace opentmcl::twin {
@@ -23,7 +25,7 @@ struct ComparedMove {
   static constexpr double supply = 24;
   static constexpr double cruise_seconds = 1;
 
-  double amplitude() const { return motor->rated_current * std::numbers::sqrt2; }
+  double amplitude() const { return motor->rated_amplitude(); }
 };
 
 struct MoveResult {
@@ -43,7 +45,9 @@ class RandomMoves {
     move.motor = &all[random_() % all.size()];
     constexpr double turns_per_second_and_rpm = MotorData::pole_pairs / 60;
     move.velocity = uniform(0.1, 1) * highest_rpm_ * turns_per_second_and_rpm;
-    move.acceleration = MotorData::pole_pairs * 5 * std::pow(20, uniform(0, 1));  // 5 to 100 turns of the shaft per s²
+    constexpr double ln20 = 2.995732273553991;
+    move.acceleration = MotorData::pole_pairs * 5 *
+                        exponential(uniform(0, ln20));  // 5 to 100 turns of the shaft per s², as many in each octave
     move.load.inertia = uniform(0.6, 2.3) * move.motor->rotor_inertia;
     constexpr double ambient = 25;
     const double pull_out =

@@ -12,13 +12,9 @@ namespace {
 
 constexpr double turns_per_second_and_rpm = MotorData::pole_pairs / 60;
 
-double rated_amplitude(const MotorData& motor) {
-  return motor.rated_current * MotorData::square_root_of_two;
-}
-
 std::shared_ptr<const TorqueTable> table_of(const MotorData& motor, double supply) {
   TorqueTables tables;
-  return tables.table(motor, TorqueTables::key(supply, rated_amplitude(motor), 20));
+  return tables.table(motor, TorqueTables::key(supply, motor.rated_amplitude(), 20));
 }
 
 const MotorData& motor() {
@@ -120,7 +116,7 @@ TEST(AveragedMotor, SwingsDieDownAsTheDampingSaysWhereTheSupplySuffices) {
                                 .inductance = data.winding_inductance,
                                 .resistance = data.winding_resistance,
                                 .supply = 24,
-                                .amplitude = rated_amplitude(data)},
+                                .amplitude = data.rated_amplitude()},
                                100 * radians_per_turn);
   constexpr double inertia = 2.2e-5;
   const double drag = data.viscous_friction + data.eddy_damping;
