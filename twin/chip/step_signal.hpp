@@ -23,6 +23,12 @@ struct StepRun {
   friend bool operator==(const StepRun&, const StepRun&) = default;
 };
 
+/// How steps are told to a listener.
+enum class StepDetail : std::uint8_t {
+  runs,   ///< as few runs as possible
+  edges,  ///< every step by itself, as soon as it is given out
+};
+
 /// Hears the steps as they are given out.
 class StepListener {
  public:

@@ -1,6 +1,7 @@
 #include "twin/chip/tmc429.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
 
 namespace opentmcl::twin {
@@ -13,6 +14,7 @@ using tmc429::Datagram;
 using tmc429::InterfaceConfiguration;
 using tmc429::Reply;
 using tmc429::Word;
+using Until = Tmc429Ramp::Until;
 
 constexpr std::uint32_t all_data = Datagram::Data::mask;
 constexpr std::uint32_t ram_word = 0x3F3F;  // two entries of 6 bits, page 55
@@ -177,33 +179,135 @@ std::uint32_t Tmc429::write_common(unsigned index, std::uint32_t data) {
   return writable & ~unmodelled_bits(name);
 }
 
+void Tmc429::set_detail(StepDetail detail) {
+  detail_ = detail;
+  for (Tmc429StepOutput& output : outputs_) {
+    output.set_detail(detail);
+  }
+}
+
 void Tmc429::advance(std::uint64_t clocks) {
-  clock_ += clocks;
+  advance_all(clocks, 0, Until::end, nullptr);
+}
+
+bool Tmc429::advance_until_change(std::uint64_t clocks, unsigned motor) {
+  const std::uint64_t end = clock_ + clocks;
+  advance_all(clocks, motor, axes_[motor].ramp().changing() ? Until::end : Until::velocity_changes, nullptr);
+  return clock_ < end;
+}
+
+void Tmc429::advance_listing(std::uint64_t clocks, std::vector<std::uint64_t>& step_clocks, unsigned motor) {
+  // Serving SPI drivers the chip makes steps but gives none out.
+  const bool step_dir = InterfaceConfiguration::EnableStepDir::is_set(output_settings_.interface_configuration);
+  outputs_[motor].list_single_steps(&step_clocks);
+  advance_all(clocks, motor, Until::end, step_dir ? &step_clocks : nullptr);
+  outputs_[motor].list_single_steps(nullptr);
+}
+
+/// Lets time pass until `motor` has reached what it is to run to, but not more than `clocks`.
+void Tmc429::advance_all(std::uint64_t clocks, unsigned motor, Until until, std::vector<std::uint64_t>* step_clocks) {
   if (powered_down_) {
+    clock_ += clocks;
     stopped_clocks_ += clocks;
     return;
   }
-  const auto tick_at = [this](std::uint64_t clock) {
-    return clock > stopped_clocks_ ? (clock - stopped_clocks_) / tmc429::clock_prescaler : 0;
-  };
-  const std::uint64_t end = tick_at(clock_);
-  for (unsigned motor = 0; motor < tmc429::motor_count; ++motor) {
-    Tmc429Axis& axis = axes_[motor];
-    Tmc429StepOutput& output = outputs_[motor];
-    while (true) {
-      // The ramp must not run past a delayed step: that may press a switch.
-      const std::optional<std::uint64_t> delayed = output.delayed_edge();
-      if (axis.advance_to_step(delayed ? std::min(end, tick_at(*delayed)) : end)) {
-        after_position_change();
-        const std::uint64_t step_clock = axis.now() * tmc429::clock_prescaler + stopped_clocks_;
-        output.step(step_clock, axis.decreasing(), output_settings_);
-      } else if (delayed && *delayed <= clock_) {
-        output.advance(*delayed, output_settings_);
-      } else {
-        break;
-      }
+  const std::uint64_t end = advance_motor(motor, clock_ + clocks, until, step_clocks);
+  for (unsigned other = 0; other < tmc429::motor_count; ++other) {
+    if (other != motor) {
+      advance_motor(other, end, Until::end, nullptr);
     }
   }
+  clock_ = end;
+}
+
+/// Returns the clock that the motor has reached.
+std::uint64_t Tmc429::advance_motor(unsigned motor, std::uint64_t end, Until until,
+                                    std::vector<std::uint64_t>* step_clocks) {
+  Tmc429Axis& axis = axes_[motor];
+  Tmc429StepOutput& output = outputs_[motor];
+  if (!output.delayed_edge() && axis.rest(tick_at(end))) {
+    return end;
+  }
+  const std::int32_t velocity_before = axis.ramp().state().velocity;
+  while (true) {
+    // The ramp must not run past a delayed step: that may press a switch.
+    const std::optional<std::uint64_t> delayed = output.delayed_edge();
+    const std::uint64_t end_tick = tick_at(delayed ? std::min(end, *delayed) : end);
+    const Tmc429Ramp::Steps steps = axis.advance(end_tick, reach_to_consequences(motor), until, step_clocks);
+    if (steps.count != 0) {
+      after_position_change();
+      give_out(motor, steps, step_clocks);
+    }
+    if (until == Until::velocity_changes && axis.ramp().state().velocity != velocity_before) {
+      end = clock_of(axis.ramp().now());
+      until = Until::end;
+    }
+    if (steps.count != 0 || axis.ramp().now() < end_tick) {
+      continue;
+    }
+    if (!delayed || *delayed > end) {
+      break;
+    }
+    output.advance(*delayed, output_settings_);
+  }
+  output.flush();
+  return end;
+}
+
+/// To the next step that must be given out alone, or that changes what the position compare shows.
+Tmc429Reach Tmc429::reach_to_consequences(unsigned motor) const {
+  if (detail_ == StepDetail::edges) {
+    return {.decreasing = 1, .increasing = 1};
+  }
+  const Tmc429StepOutput& output = outputs_[motor];
+  Tmc429Reach reach;
+  if (!output.immediate(true)) {
+    reach.decreasing = 1;
+  }
+  if (!output.immediate(false)) {
+    reach.increasing = 1;
+  }
+  const Word<ComparePositionInterrupt> interrupt_word{common(CommonRegister::compare_position_interrupt)};
+  const auto compared = InterfaceConfiguration::ComparedMotor::in(output_settings_.interface_configuration);
+  if (compared == static_cast<std::int32_t>(motor) && ComparePositionInterrupt::Enabled::is_set(interrupt_word)) {
+    const std::int32_t position = tmc429::ActualPosition::Value::in({common(CommonRegister::compare_position)});
+    reach.limit_to(Tmc429Reach::to_border(axes_[motor].position(), position, position));
+  }
+  return reach;
+}
+
+/// `step_clocks`, if given, ends with the ticks of these steps and is to have the clocks at which they leave the chip.
+void Tmc429::give_out(unsigned motor, const Tmc429Ramp::Steps& steps, std::vector<std::uint64_t>* step_clocks) {
+  Tmc429StepOutput& output = outputs_[motor];
+  if (steps.count == 1) {
+    if (step_clocks != nullptr) {
+      step_clocks->pop_back();  // the output lists it when it gives it out
+    }
+    output.step(clock_of(steps.first_tick), steps.decreasing, output_settings_);
+    return;
+  }
+  output.steps(steps.count, clock_of(steps.first_tick), clock_of(steps.last_tick), output_settings_);
+  if (step_clocks != nullptr) {
+    const auto first = step_clocks->end() - static_cast<std::ptrdiff_t>(steps.count);
+    std::transform(first, step_clocks->end(), first, [this](std::uint64_t tick) { return clock_of(tick); });
+  }
+}
+
+/// The tick of the dividers that is the latest at a clock.
+std::uint64_t Tmc429::tick_at(std::uint64_t clock) const {
+  return clock > stopped_clocks_ ? (clock - stopped_clocks_) / tmc429::clock_prescaler : 0;
+}
+
+std::uint64_t Tmc429::clock_of(std::uint64_t tick) const {
+  return tick * tmc429::clock_prescaler + stopped_clocks_;
+}
+
+Tmc429::Motion Tmc429::motion(unsigned motor) const {
+  const Tmc429RampState& state = axes_[motor].ramp().state();
+  return {.position = state.position,
+          .accumulator = state.accumulator,
+          .velocity_with_fraction = state.velocity,
+          .pulse_divider = state.settings.pulse_divider};
 }
 
 void Tmc429::set_left_switch(bool level, unsigned motor) {

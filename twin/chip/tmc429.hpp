@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "firmware/chip/tmc429_registers.hpp"
 #include "twin/chip/step_signal.hpp"
@@ -17,9 +18,13 @@ namespace opentmcl::twin {
 /// meaning are counted by unmodelled_writes().
 class Tmc429 {
  public:
-  /// `listener` hears the steps of all motors in Step/Dir mode, those of one motor in the order of time. It must
-  /// outlive this; from within a step it may only set switches, which then act from that step on.
+  /// `listener` hears the steps of all motors in Step/Dir mode, those of one motor in the order of time, at the latest
+  /// when the call that lets time pass returns. It must outlive this. When told of every edge, it may set switches from
+  /// within a step, which then act from that step on; it may do nothing else.
   explicit Tmc429(StepListener& listener);
+
+  /// Runs at the start. Both tell of the same steps.
+  void set_detail(StepDetail detail);
 
   // ---- Bus door
 
@@ -28,8 +33,14 @@ class Tmc429 {
 
   // ---- World door
 
-  /// Lets `clocks` periods of CLK pass.
+  /// Lets `clocks` periods of CLK pass. What happens does not depend on how a time is cut into calls.
   void advance(std::uint64_t clocks);
+  /// The same, but where the velocity of `motor`, fraction included, is not changing at the start, only to the tick
+  /// that begins to change it: a start, the begin of an acceleration or braking, a stop. A step that reaches the target
+  /// counts. True when that came before all of the time had passed.
+  bool advance_until_change(std::uint64_t clocks, unsigned motor = 0);
+  /// As advance(), and appends the clock of every step that `motor` gives out to `step_clocks`.
+  void advance_listing(std::uint64_t clocks, std::vector<std::uint64_t>& step_clocks, unsigned motor = 0);
   /// Periods of CLK since power-on.
   std::uint64_t clock() const { return clock_; }
 
@@ -49,6 +60,18 @@ class Tmc429 {
   /// The 24 data bits that a read datagram would be answered with; changes nothing.
   std::uint32_t read(std::uint32_t datagram) const;
 
+  /// Where a motor is within and between its steps. The next step comes when 2048 is reached in the accumulator, to
+  /// which every 32 * 2^pulse_divider clocks the integer part of |velocity| is added.
+  struct Motion {
+    std::int32_t position;                ///< X_ACTUAL
+    std::uint32_t accumulator;            ///< 0…2047
+    std::int32_t velocity_with_fraction;  ///< 1/256 of the unit of V_ACTUAL
+    unsigned pulse_divider;               ///< 0…13
+
+    friend bool operator==(const Motion&, const Motion&) = default;
+  };
+  Motion motion(unsigned motor = 0) const;
+
   std::uint64_t unmodelled_writes() const { return unmodelled_writes_; }
   std::uint32_t latest_unmodelled_write() const { return latest_unmodelled_write_; }
 
@@ -60,11 +83,20 @@ class Tmc429 {
   std::uint32_t write_common(unsigned index, std::uint32_t data);
   void update_switches();
   void after_position_change();
+  void advance_all(std::uint64_t clocks, unsigned motor, Tmc429Ramp::Until until,
+                   std::vector<std::uint64_t>* step_clocks);
+  std::uint64_t advance_motor(unsigned motor, std::uint64_t end, Tmc429Ramp::Until until,
+                              std::vector<std::uint64_t>* step_clocks);
+  void give_out(unsigned motor, const Tmc429Ramp::Steps& steps, std::vector<std::uint64_t>* step_clocks);
+  Tmc429Reach reach_to_consequences(unsigned motor) const;
+  std::uint64_t tick_at(std::uint64_t clock) const;
+  std::uint64_t clock_of(std::uint64_t tick) const;
   bool interrupt() const;
   std::uint32_t& common(tmc429::CommonRegister index) { return common_[static_cast<unsigned>(index)]; }
   std::uint32_t common(tmc429::CommonRegister index) const { return common_[static_cast<unsigned>(index)]; }
 
   std::uint64_t clock_ = 0;
+  StepDetail detail_ = StepDetail::runs;
   std::uint64_t stopped_clocks_ = 0;  ///< those that passed in power-down
   bool powered_down_ = false;
   std::array<Tmc429Axis, tmc429::motor_count> axes_;

@@ -51,7 +51,7 @@ std::uint32_t Tmc429Axis::writable_bits(AxisRegister index) {
 }
 
 std::uint32_t Tmc429Axis::read(AxisRegister index) const {
-  const Tmc429Ramp::Settings& settings = ramp_.settings();
+  const Tmc429RampSettings& settings = ramp_.settings();
   switch (index) {
     case AxisRegister::target_position:
       return data_of_value<tmc429::TargetPosition>(settings.target_position);
@@ -95,7 +95,7 @@ std::uint32_t Tmc429Axis::read(AxisRegister index) const {
 }
 
 void Tmc429Axis::write(AxisRegister index, std::uint32_t data) {
-  Tmc429Ramp::Settings settings = ramp_.settings();
+  Tmc429RampSettings settings = ramp_.settings();
   switch (index) {
     case AxisRegister::target_position:
       settings.target_position = value_in<tmc429::TargetPosition>(data);
@@ -176,32 +176,53 @@ void Tmc429Axis::set_switches(bool left, bool right) {
   after_change();
 }
 
-bool Tmc429Axis::advance_to_step(std::uint64_t end) {
-  // The velocity may be 0 after the step (a stop at the target), so the direction is taken from the position.
-  const std::int32_t before = ramp_.position();
-  if (!ramp_.advance_to_step(end)) {
-    return false;
+Tmc429Ramp::Steps Tmc429Axis::advance(std::uint64_t end, Tmc429Reach reach, Tmc429Ramp::Until until,
+                                      std::vector<std::uint64_t>* step_ticks) {
+  reach.limit_to(reach_to_consequences());
+  const Tmc429Ramp::Steps steps = ramp_.advance(end, reach, until, step_ticks);
+  if (steps.count != 0) {
+    after_change();
   }
-  decreasing_ = tmc429_choices::distance(before, ramp_.position()) < 0;
-  after_change();
-  return true;
+  return steps;
+}
+
+/// To the next step at which a condition that has a consequence begins or ends; masked interrupts have none.
+Tmc429Reach Tmc429Axis::reach_to_consequences() const {
+  const auto unmasked = [this](Word<Interrupts> flag) { return (mask_ & flag.bits) != 0; };
+  const std::int32_t position = ramp_.position();
+  Tmc429Reach reach;
+  if (unmasked(Interrupts::PositionEnd::set)) {
+    const std::int32_t target = ramp_.settings().target_position;
+    reach.limit_to(Tmc429Reach::to_border(position, target, target));
+  }
+  if (unmasked(Interrupts::ReferenceMissed::set) && !reference_switch()) {
+    reach.limit_to(Tmc429Reach::to_border(position, 0, 0));
+  }
+  const Tmc429Blocked stops = stop_switches();
+  const bool tolerance_stops = reference_tolerance_ != 0 && (stops.decreasing || stops.increasing);
+  if (tolerance_stops || (unmasked(Interrupts::ReferenceWrong::set) && reference_switch())) {
+    reach.limit_to(Tmc429Reach::to_border(position, -reference_tolerance_, reference_tolerance_));
+  }
+  return reach;
 }
 
 bool Tmc429Axis::reference_switch() const {
   return Mode::ReferenceIsRight::is_set(mode_) ? right_switch_ : left_switch_;
 }
 
-Tmc429Ramp::Blocked Tmc429Axis::blocked_directions() const {
-  const bool tolerated =
-      reference_tolerance_ != 0 && tmc429_choices::within_tolerance(ramp_.position(), reference_tolerance_);
-  if (tolerated) {
-    return {};
-  }
+/// The directions that would be blocked if there were no tolerance.
+Tmc429Blocked Tmc429Axis::stop_switches() const {
   return {
       .decreasing = left_switch_ && !Mode::DisableLeftStop::is_set(mode_),
       .increasing = right_switch_ && !Mode::DisableRightStop::is_set(mode_),
       .soft_stop = Mode::SoftStop::is_set(mode_),
   };
+}
+
+Tmc429Blocked Tmc429Axis::blocked_directions() const {
+  const bool tolerated =
+      reference_tolerance_ != 0 && tmc429_choices::within_tolerance(ramp_.position(), reference_tolerance_);
+  return tolerated ? Tmc429Blocked{} : stop_switches();
 }
 
 Tmc429Axis::Conditions Tmc429Axis::conditions() const {

@@ -3,9 +3,11 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "firmware/chip/tmc429_registers.hpp"
 #include "twin/chip/tmc429_ramp.hpp"
+#include "twin/chip/tmc429_reach.hpp"
 
 namespace opentmcl::twin {
 
@@ -22,12 +24,13 @@ class Tmc429Axis {
   bool left_switch() const { return left_switch_; }
   bool right_switch() const { return right_switch_; }
 
-  /// See Tmc429Ramp::advance_to_step().
-  bool advance_to_step(std::uint64_t end);
-  std::uint64_t now() const { return ramp_.now(); }
+  /// See Tmc429Ramp::advance(). Ends also with each step that may raise an interrupt, stop or release the motion.
+  Tmc429Ramp::Steps advance(std::uint64_t end, Tmc429Reach reach, Tmc429Ramp::Until until,
+                            std::vector<std::uint64_t>* step_ticks);
+  /// See Tmc429Ramp::rest().
+  bool rest(std::uint64_t end) { return ramp_.rest(end); }
+  const Tmc429Ramp& ramp() const { return ramp_; }
 
-  /// The direction of the latest step or of the present motion.
-  bool decreasing() const { return decreasing_; }
   std::int32_t position() const { return ramp_.position(); }
   bool at_target() const { return ramp_.at_target(); }
   /// Some interrupt flag is set.
@@ -50,10 +53,11 @@ class Tmc429Axis {
   void raise(tmc429::Word<tmc429::Interrupts> flag);
   void write_interrupts(tmc429::Word<tmc429::Interrupts> word);
   bool reference_switch() const;
-  Tmc429Ramp::Blocked blocked_directions() const;
+  Tmc429Reach reach_to_consequences() const;
+  Tmc429Blocked stop_switches() const;
+  Tmc429Blocked blocked_directions() const;
 
   Tmc429Ramp ramp_;
-  bool decreasing_ = false;
   bool left_switch_ = false;
   bool right_switch_ = false;
   tmc429::Word<tmc429::Mode> mode_;  ///< with lp

@@ -27,6 +27,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "firmware/chip/tmc429_registers.hpp"
@@ -39,31 +40,40 @@ constexpr std::int32_t distance(std::int32_t from, std::int32_t to) {
 }
 
 /// The braking calculation sees at most this many steps ("internally limited to 2^19", page 26).
-constexpr std::uint64_t braking_distance(std::int32_t distance_to_target) {
-  const std::int64_t magnitude = distance_to_target < 0 ? -std::int64_t{distance_to_target} : distance_to_target;
-  return static_cast<std::uint64_t>(std::min<std::int64_t>(magnitude, tmc429::braking_distance_limit - 1));
+constexpr std::uint64_t braking_distance(std::uint64_t distance_to_target) {
+  return std::min<std::uint64_t>(distance_to_target, tmc429::braking_distance_limit - 1);
 }
 
 /// ramp_mode: v² = 2048 p d, because p = 2048 / S makes v = 2048 exactly at the braking distance d = S, and only a
 /// square root gives the straight braking lines of figure 8.3. Largest v <= limit with v² <= 2048 p d (rounded down).
-constexpr std::int32_t braking_velocity(std::uint64_t steps, std::uint32_t multiplier, std::uint32_t divisor,
-                                        std::int32_t limit) {
+inline std::int32_t braking_velocity(std::uint64_t steps, std::uint32_t multiplier, std::uint32_t divisor,
+                                     std::int32_t limit) {
   const std::uint64_t square = (2048u * multiplier * steps) >> (3 + divisor);
-  std::uint32_t root = 0;
-  for (std::uint32_t bit = 1024; bit != 0; bit >>= 1) {
-    const std::uint64_t candidate = root | bit;
-    if (candidate * candidate <= square) {
-      root |= bit;
-    }
+  if (square >= static_cast<std::uint64_t>(limit) * static_cast<std::uint64_t>(limit)) {
+    return limit;
   }
-  return std::min(static_cast<std::int32_t>(root), limit);
+  // Below 2^22: there the square root of a double, which IEEE 754 rounds correctly, has the right integer part.
+  return static_cast<std::int32_t>(std::sqrt(static_cast<double>(square)));
+}
+
+/// The shortest d for which braking_velocity() allows `velocity`: v² <= 2048 p d, rounded up.
+constexpr std::uint64_t shortest_braking_distance(std::int32_t velocity, std::uint32_t multiplier,
+                                                  std::uint32_t divisor) {
+  const auto v = static_cast<std::uint64_t>(velocity);
+  const auto over_2048 = static_cast<std::uint32_t>((((v * v) << (3 + divisor)) + 2047) / 2048);  // below 2^29
+  return (over_2048 + multiplier - 1) / multiplier;
 }
 
 /// soft_mode: v = p d, "exponentially reduced velocity", rounded down.
-constexpr std::int32_t soft_velocity(std::uint64_t steps, std::uint32_t multiplier, std::uint32_t divisor,
-                                     std::int32_t limit) {
+inline std::int32_t soft_velocity(std::uint64_t steps, std::uint32_t multiplier, std::uint32_t divisor,
+                                  std::int32_t limit) {
   const std::uint64_t velocity = (multiplier * steps) >> (3 + divisor);
   return static_cast<std::int32_t>(std::min<std::uint64_t>(velocity, static_cast<std::uint64_t>(limit)));
+}
+
+/// The shortest d for which soft_velocity() allows `velocity`.
+constexpr std::uint64_t shortest_soft_distance(std::int32_t velocity, std::uint32_t multiplier, std::uint32_t divisor) {
+  return ((static_cast<std::uint64_t>(velocity) << (3 + divisor)) + multiplier - 1) / multiplier;
 }
 
 /// The hidden fraction is cut off from the magnitude, which is stored apart from the sign: -0.5 reads as 0.

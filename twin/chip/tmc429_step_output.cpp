@@ -1,6 +1,7 @@
 #include "twin/chip/tmc429_step_output.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "twin/chip/tmc429_choices.hpp"
 
@@ -32,35 +33,61 @@ std::uint64_t pulse_length(const Settings& settings) {
 
 void Tmc429StepOutput::step(std::uint64_t clock, bool decreasing, const Settings& settings) {
   if (delayed_edge_) {
-    give_out(std::min(*delayed_edge_, clock), settings);
+    const std::uint64_t edge = std::min(*delayed_edge_, clock);
+    give_out(1, edge, edge, settings);
   }
   const bool reversed = decreasing != decreasing_;
   decreasing_ = decreasing;
   if (reversed) {
     delayed_edge_ = clock + pulse_length(settings);
   } else {
-    give_out(clock, settings);
+    give_out(1, clock, clock, settings);
   }
+}
+
+void Tmc429StepOutput::steps(std::uint64_t count, std::uint64_t first_clock, std::uint64_t last_clock,
+                             const Settings& settings) {
+  give_out(count, first_clock, last_clock, settings);
 }
 
 void Tmc429StepOutput::advance(std::uint64_t clock, const Settings& settings) {
   if (delayed_edge_ && *delayed_edge_ <= clock) {
-    give_out(*delayed_edge_, settings);
+    give_out(1, *delayed_edge_, *delayed_edge_, settings);
   }
 }
 
-void Tmc429StepOutput::give_out(std::uint64_t clock, const Settings& settings) {
+void Tmc429StepOutput::give_out(std::uint64_t count, std::uint64_t first_clock, std::uint64_t last_clock,
+                                const Settings& settings) {
   delayed_edge_.reset();
   if (!enabled(settings)) {
     return;
   }
-  latest_edge_ = clock;
+  latest_edge_ = last_clock;
   StepSignal signal = StepSignal::pulse;
   if (steps_on_both_edges(settings)) {
-    toggled_high_ = !toggled_high_;
-    signal = toggled_high_ != step_inverted(settings) ? StepSignal::rising : StepSignal::falling;
+    signal = toggled_high_ == step_inverted(settings) ? StepSignal::rising : StepSignal::falling;
+    toggled_high_ = toggled_high_ != (count % 2 == 1);
   }
-  listener_->steps({motor_, 1, clock, clock, signal, direction_pin(settings)});
+  if (count == 1 && single_step_clocks_ != nullptr) {
+    single_step_clocks_->push_back(first_clock);
+  }
+  const bool direction = direction_pin(settings);
+  if (untold_ && untold_->direction == direction) {
+    untold_->count += count;
+    untold_->last_clock = last_clock;
+  } else {
+    flush();
+    untold_ = StepRun{motor_, count, first_clock, last_clock, signal, direction};
+  }
+  if (detail_ == StepDetail::edges) {
+    flush();
+  }
+}
+
+void Tmc429StepOutput::flush() {
+  if (untold_) {
+    listener_->steps(*std::exchange(untold_, std::nullopt));
+  }
 }
 
 bool Tmc429StepOutput::step_pin(std::uint64_t clock, const Settings& settings) const {

@@ -14,6 +14,7 @@ struct StepRecorder : StepListener {
   void steps(const StepRun& run) override { events.push_back(run); }
 };
 
+/// Every step is an event of its own.
 struct Tmc429Bench {
   StepRecorder steps;
   Tmc429 chip{steps};
@@ -21,6 +22,7 @@ struct Tmc429Bench {
   /// The state in which a module's firmware uses the chip: Step/Dir drivers, right switches in use.
   Tmc429Bench() {
     using tmc429::InterfaceConfiguration;
+    chip.set_detail(StepDetail::edges);
     write(InterfaceConfiguration::EnableStepDir::set | InterfaceConfiguration::EnableRightSwitches::set |
           InterfaceConfiguration::InterruptOutput::set);
     write(tmc429::GlobalParameters::StepPulseLength::of(0));

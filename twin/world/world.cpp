@@ -14,7 +14,7 @@ World::World(TraceObserver* observer, const Mounted& mounted)
       machine_(mounted.machine),
       rotor_(machine_.travel().lowest, machine_.travel().highest),
       encoder_(mounted.encoder) {
-  tmc429_.emplace(static_cast<StepListener&>(*this));
+  tmc429_.emplace(static_cast<StepListener&>(*this)).set_detail(StepDetail::edges);
   tmc262_.set_temperature(temperature_);
   update_switches(now_);
   follow_shaft(now_);
@@ -23,7 +23,7 @@ World::World(TraceObserver* observer, const Mounted& mounted)
 void World::power_cycle() {
   report(now_, "power", 0);
   powered_at_ = now_;
-  tmc429_.emplace(static_cast<StepListener&>(*this));
+  tmc429_.emplace(static_cast<StepListener&>(*this)).set_detail(StepDetail::edges);
   tmc262_.power_up();
   eeprom_.lose_power(now_);
   eeprom_.power_up();
