@@ -20,10 +20,14 @@
 //  * Interrupt flags are set by the beginning of their condition, so that one cleared flag stays clear.
 //    "Target reached" is the xEQt bit of the status byte; it compares positions in every mode.
 //  * POS_COMP_INT behaves as the other interrupts: set by the beginning of the match, cleared by writing 1, part of
-//  INT.
+//    INT.
 //  * The status byte shows the state before a write takes effect, because it leaves the chip first.
 //  * Unassigned registers read 0 and ignore writes, as on the TMC428.
 //  * A step that is due while the previous STEP pulse is still high gets its own edge all the same: no step is lost.
+//    For the same reason a step that waits after a reversal goes out with the next one if that is due first.
+//  * STEP with step_half begins low and DIR as for increasing positions, so that the first step down is a reversal.
+//  * A target exactly half the circle away, 2^23, is taken to lie in the decreasing direction: the sign bit of the
+//    difference says so.
 #pragma once
 
 #include <algorithm>
