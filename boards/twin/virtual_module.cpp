@@ -129,7 +129,8 @@ VirtualModule::VirtualModule(const ModuleDescription& description, std::vector<h
                              twin::TraceObserver* observer)
     : description_(description),
       options_(options),
-      world_(observer, {options.machine, encoder_of(description.id, options.encoder)}),
+      world_(observer, {options_.machine, encoder_of(description.id, options_.encoder), options_.motor, options_.load,
+                        options_.tables}),
       ports_(std::move(ports)),
       board_(std::make_unique<Board>(description.id, world_, ports_, options_.can)) {
   restart();
@@ -163,6 +164,23 @@ void VirtualModule::take_turn() {
     return;
   }
   next_turn_ = std::max(wanted, time + options_.turn);
+  watches_until_ = std::max(module_->due_without_change(wanted), next_turn_);
+  noted_motion_changes_ = world_.motion_changes();
+}
+
+/// A program that waits for a position looks every millisecond. As long as nothing has changed it sees nothing, so
+/// these turns are left out: what happens, and when, is the same.
+void VirtualModule::leave_out_vain_turns(Microseconds time) {
+  const Microseconds end = std::min({watches_until_, time, next_act()});
+  const bool is_awaited =
+      world_.input_changes() != noted_input_changes_ || world_.motion_changes() != noted_motion_changes_;
+  if (is_awaited || next_turn_ >= end) return;
+  world_.advance_to_motion_change(end * twin::ticks_per_microsecond);
+  const Microseconds reached = (world_.now() + twin::ticks_per_microsecond - 1) / twin::ticks_per_microsecond;
+  if (reached <= next_turn_) return;
+  constexpr Microseconds period = Executor::wait_poll_period;
+  const Microseconds left_out = (reached - next_turn_ + period - 1) / period;
+  next_turn_ = std::min(next_turn_ + left_out * period, watches_until_);
 }
 
 Microseconds VirtualModule::next_act() const {
@@ -176,7 +194,7 @@ Microseconds VirtualModule::next_turn() const {
 }
 
 void VirtualModule::advance_to(Microseconds time) {
-  while (next_turn() <= time) {
+  for (leave_out_vain_turns(time); next_turn() <= time; leave_out_vain_turns(time)) {
     world_.advance_to(next_turn() * twin::ticks_per_microsecond);
     if (next_act() <= now()) {
       for (BenchActor* actor : actors_) {

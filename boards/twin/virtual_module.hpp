@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "firmware/hal/hal.hpp"
@@ -42,6 +43,12 @@ class VirtualModule {
     twin::MachineDimensions machine = twin::LinearStageDimensions{};
     /// The encoder on it; its kind is that of the module, whatever is said here.
     twin::EncoderProperties encoder{};
+    /// The motor; nothing: an ideal one, whose rotor is always where the field is.
+    std::optional<twin::MotorData> motor = {};
+    /// What pulls at the machine. N on a linear stage, N m elsewhere.
+    double load = 0;
+    /// May be shared by the modules of a process; own ones if empty.
+    std::shared_ptr<twin::TorqueTables> tables = {};
     /// The module's end of a CAN bus, or none; must outlive the module. A PD-1161 does not look at it.
     hal::CanPort* can = nullptr;
   };
@@ -68,7 +75,7 @@ class VirtualModule {
   void add_actor(BenchActor& actor) { actors_.push_back(&actor); }
 
   /// Something happened outside, such as bytes on a port: the firmware takes a turn at now() in the next advance_to().
-  void wake() { next_turn_ = now(); }
+  void wake() { next_turn_ = watches_until_ = now(); }
 
   /// When the firmware or an actor next needs to run if nothing happens outside; `never` while the firmware only waits
   /// for commands and no actor has anything to do.
@@ -86,6 +93,7 @@ class VirtualModule {
 
   void restart();
   void take_turn();
+  void leave_out_vain_turns(Microseconds time);
   Microseconds next_firmware_turn() const {
     return world_.input_changes() == noted_input_changes_ ? next_turn_ : now();
   }
@@ -99,6 +107,9 @@ class VirtualModule {
   std::unique_ptr<Module> module_;
   std::vector<BenchActor*> actors_;
   Microseconds next_turn_ = 0;
+  /// Until then the firmware's turns only look whether the motion or a switch has changed.
+  Microseconds watches_until_ = 0;
+  std::uint64_t noted_motion_changes_ = 0;
   std::uint64_t noted_input_changes_ = 0;  ///< of the world, as the firmware knows of
 };
 

@@ -48,6 +48,17 @@ class Module {
     return parts_due < lines_due ? parts_due : lines_due;
   }
 
+  /// For boards that see when the motor arrives at its target or leaves it and when a switch changes: turns in which a
+  /// program only looks for that may be left out.
+  /// @param due what the last poll() returned
+  /// @return when the next turn is needed if no such change comes before; turns that are not left out come every
+  ///         Executor::wait_poll_period from `due` on
+  Microseconds due_without_change(Microseconds due) const {
+    const Microseconds awaited = executor_.next_turn_without_change();
+    if (due != executor_.next_turn() || awaited == due) return due;
+    return awaited < others_due_ ? awaited : others_due_;
+  }
+
   /// The level of an input changed, or the motor supply: the next poll() looks at all of them. A board that cannot tell
   /// calls this every 10 ms.
   void note_input_change();

@@ -6,13 +6,6 @@ namespace opentmcl {
 
 namespace {
 
-/// How often a program that waits for a position or a switch looks again.
-constexpr Microseconds wait_poll_period = one_millisecond;
-
-}  // namespace
-
-namespace {
-
 /// Out of line, so that the way to the handler stays a chain of jumps.
 [[gnu::noinline]] Outcome refused(Status status, const Command& command) {
   return {status, command.value, Outcome::Form::normal};
@@ -148,9 +141,17 @@ Microseconds Executor::turn_behind_instruction(Microseconds now) const {
   if (!machine.is_running()) return never;
   if (!machine.is_waiting()) return now;
   Microseconds next = machine.wait_deadline();
-  const bool has_to_look = machine.is_polling_wait() || machine.interrupts.is_active();
+  const bool has_to_look =
+      machine.waits_for() != ProgramMachine::WaitsFor::time || machine.interrupts.is_active();
   if (has_to_look && now + wait_poll_period < next) next = now + wait_poll_period;
   return next;
+}
+
+Microseconds Executor::next_turn_without_change() const {
+  const ProgramMachine& machine = parts_.machine;
+  const bool only_watches = machine.is_running() && machine.is_waiting() && !machine.interrupts.is_active() &&
+                            machine.waits_for() == ProgramMachine::WaitsFor::motion_or_switch;
+  return only_watches ? machine.wait_deadline() : next_turn_;
 }
 
 }  // namespace opentmcl

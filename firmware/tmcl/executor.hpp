@@ -59,6 +59,10 @@ class Executor {
   }
   /// When a running program needs the next turn, as poll() found.
   Microseconds next_turn() const { return next_turn_; }
+  /// The same for a board that gives a turn whenever the motor reaches its target, leaves it, or a switch changes.
+  Microseconds next_turn_without_change() const;
+  /// How often a program looks whether the WAIT it is in is over.
+  static constexpr Microseconds wait_poll_period = one_millisecond;
 
   /// The eight bytes behind the host address after an outcome with Form::special.
   const std::uint8_t* special_reply() const { return special_reply_; }

@@ -26,6 +26,12 @@ enum class WaitEvent : std::uint8_t {
   reference_search = 4
 };
 
+constexpr ProgramMachine::WaitsFor awaited_by(WaitEvent event) {
+  using WaitsFor = ProgramMachine::WaitsFor;
+  if (event == WaitEvent::ticks) return WaitsFor::time;
+  return event == WaitEvent::reference_search ? WaitsFor::reference_search : WaitsFor::motion_or_switch;
+}
+
 /// One tick of WAIT is 10 ms (PD-1161 manual 3.7.22).
 constexpr Microseconds tick = 10 * one_millisecond;
 
@@ -110,8 +116,7 @@ Outcome Handlers::wait(Executor& executor, const Command& command) {
   std::int32_t ticks = command.value == from_accumulator ? registers(executor).accumulator : command.value;
   if (ticks < 0) ticks = 0;
   const bool has_limit = event == WaitEvent::ticks || ticks != 0;
-  machine.begin_wait(executor.now_, has_limit ? static_cast<Microseconds>(ticks) * tick : never,
-                     event != WaitEvent::ticks);
+  machine.begin_wait(executor.now_, has_limit ? static_cast<Microseconds>(ticks) * tick : never, awaited_by(event));
 
   bool happened = false;
   switch (event) {

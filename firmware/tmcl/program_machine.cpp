@@ -34,7 +34,7 @@ void ProgramMachine::return_from_subroutine() {
 }
 
 void ProgramMachine::enter_interrupt(std::uint16_t vector) {
-  interrupted_ = {registers, program_counter_, waiting_, wait_polls_, wait_deadline_};
+  interrupted_ = {registers, program_counter_, waiting_, waits_for_, wait_deadline_};
   in_interrupt_ = true;
   waiting_ = false;
   program_counter_ = vector;
@@ -45,15 +45,15 @@ void ProgramMachine::return_from_interrupt() {
   in_interrupt_ = false;
   registers = interrupted_.registers;
   waiting_ = interrupted_.waiting;
-  wait_polls_ = interrupted_.wait_polls;
+  waits_for_ = interrupted_.waits_for;
   wait_deadline_ = interrupted_.wait_deadline;
   jump(interrupted_.program_counter);
 }
 
-void ProgramMachine::begin_wait(Microseconds now, Microseconds limit, bool polling) {
+void ProgramMachine::begin_wait(Microseconds now, Microseconds limit, WaitsFor event) {
   if (waiting_) return;
   waiting_ = true;
-  wait_polls_ = polling;
+  waits_for_ = event;
   wait_deadline_ = limit == never ? never : now + limit;
 }
 

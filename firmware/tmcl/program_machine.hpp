@@ -80,10 +80,12 @@ class ProgramMachine {
   void return_from_interrupt();
   bool is_in_interrupt() const { return in_interrupt_; }
 
+  /// What else than time ends a WAIT: whether it is over has to be looked at again and again.
+  enum class WaitsFor : std::uint8_t { time, motion_or_switch, reference_search };
+
   /// Begins a WAIT when none is under way. @param limit ends at begin + limit; `never` for no time limit
-  /// @param polling the wait is for more than time: whether it is over has to be looked at again and again
-  void begin_wait(Microseconds now, Microseconds limit, bool polling);
-  bool is_polling_wait() const { return wait_polls_; }
+  void begin_wait(Microseconds now, Microseconds limit, WaitsFor event);
+  WaitsFor waits_for() const { return waits_for_; }
   Microseconds wait_deadline() const { return wait_deadline_; }
   void end_wait() { waiting_ = false; }
 
@@ -94,7 +96,7 @@ class ProgramMachine {
     Registers registers;
     std::uint16_t program_counter = 0;
     bool waiting = false;
-    bool wait_polls = false;
+    WaitsFor waits_for = WaitsFor::time;
     Microseconds wait_deadline = 0;
   };
 
@@ -103,7 +105,7 @@ class ProgramMachine {
   std::uint16_t stack_[stack_size] = {};
   std::uint8_t depth_ = 0;
   bool waiting_ = false;
-  bool wait_polls_ = false;
+  WaitsFor waits_for_ = WaitsFor::time;
   bool in_interrupt_ = false;
   Microseconds wait_deadline_ = 0;
   Context interrupted_;

@@ -196,6 +196,11 @@ bool Tmc429::advance_until_change(std::uint64_t clocks, unsigned motor) {
   return clock_ < end;
 }
 
+std::uint64_t Tmc429::clocks_for_steps(std::uint64_t steps, unsigned motor) const {
+  const std::uint64_t ticks = axes_[motor].ramp().ticks_for_steps(steps);
+  return ticks == std::numeric_limits<std::uint64_t>::max() ? ticks : ticks * tmc429::clock_prescaler;
+}
+
 void Tmc429::advance_listing(std::uint64_t clocks, std::vector<std::uint64_t>& step_clocks, unsigned motor) {
   // Serving SPI drivers the chip makes steps but gives none out.
   const bool step_dir = InterfaceConfiguration::EnableStepDir::is_set(output_settings_.interface_configuration);

@@ -71,6 +71,13 @@ class Tmc429 {
     friend bool operator==(const Motion&, const Motion&) = default;
   };
   Motion motion(unsigned motor = 0) const;
+  /// X_ACTUAL is X_TARGET.
+  bool at_target(unsigned motor = 0) const { return axes_[motor].at_target(); }
+  /// The velocity has changed lately, so that advance_until_change() does not wait for its change.
+  bool changes_velocity(unsigned motor = 0) const { return axes_[motor].ramp().changing(); }
+  /// Clocks in which `motor` gives fewer than `steps` steps for sure, whatever its ramp does, if nothing is written and
+  /// no switch changes; the largest number when it gives none at all. @param steps 1 or more
+  std::uint64_t clocks_for_steps(std::uint64_t steps, unsigned motor = 0) const;
 
   std::uint64_t unmodelled_writes() const { return unmodelled_writes_; }
   std::uint32_t latest_unmodelled_write() const { return latest_unmodelled_write_; }

@@ -248,4 +248,23 @@ bool Tmc429Ramp::turns_round(const Passage& passage) const {
   return next.velocity != 0 && (next.velocity < 0) != passage.steps.decreasing;
 }
 
+std::uint64_t Tmc429Ramp::ticks_for_steps(std::uint64_t steps) const {
+  if (state_.velocity == 0 && settled_) {
+    return never;
+  }
+  std::int32_t fastest = (std::abs(state_.velocity) + fraction - 1) / fraction;
+  if (state_.positioning()) {
+    fastest = std::max(fastest, state_.settings.maximum_velocity);
+  } else if (state_.settings.mode == RampMode::velocity) {
+    fastest = std::max(fastest, std::min(std::abs(state_.settings.target_velocity), state_.settings.maximum_velocity));
+  }
+  if (fastest == 0) {
+    return never;
+  }
+  constexpr std::uint64_t most_steps = std::uint64_t{1} << 32;  // hours at any speed
+  const std::uint64_t phase = std::min(steps, most_steps) * tmc429::pulse_accumulator_size - state_.accumulator;
+  const std::uint64_t pulse_ticks = (phase - 1) / static_cast<std::uint64_t>(fastest);
+  return pulse_ticks << state_.settings.pulse_divider;
+}
+
 }  // namespace opentmcl::twin

@@ -61,6 +61,8 @@ class Tmc429Ramp {
   bool at_target() const { return state_.position == state_.settings.target_position; }
 
   std::uint64_t now() const { return state_.now; }
+  /// Ticks in which fewer than `steps` steps are given for sure; the largest number when none will ever be.
+  std::uint64_t ticks_for_steps(std::uint64_t steps) const;
   /// Lets time pass until `end` if that changes nothing else: nothing moves and nothing is about to. False if not so.
   bool rest(std::uint64_t end) {
     const bool resting = settled_ && state_.pulse_increment() == 0;

@@ -28,6 +28,16 @@ class IdealRotor {
     angle_ = std::clamp(angle_ + way, lowest_, highest_);
   }
 
+  /// How far it may turn either way before it comes to an end, in microsteps.
+  std::int64_t distance_to_end() const {
+    constexpr std::int64_t limit = std::numeric_limits<std::int64_t>::max();
+    const std::int64_t down = lowest_ == std::numeric_limits<std::int64_t>::min() ? limit : angle_ - lowest_;
+    return std::min(down, highest_ == limit ? limit : highest_ - angle_);
+  }
+
+  /// Turns with a field that it follows, less far than to an end. @param microsteps positive for rising field angles
+  void turn(std::int64_t microsteps) { angle_ += microsteps; }
+
   /// Shaft angle since power-on, in microsteps of 1/256 full step, positive for rising field angles.
   std::int64_t angle() const { return angle_; }
 

@@ -5,74 +5,79 @@
 namespace opentmcl::twin {
 namespace {
 
-constexpr unsigned driven_motor = 0;  // motor 1: the only one with a driver on these modules
+/// What a machine is to the motor, with something pulling at it.
+Load load_of(const Machine& machine, double pull) {
+  Load load;
+  load.inertia = machine.inertia();
+  load.coulomb_friction = machine.friction();
+  load.torque = machine.torque_of(pull);
+  if (machine.end_stiffness() > 0) {
+    load.lowest_angle = electrical_turns_at(machine.travel().lowest);
+    load.highest_angle = electrical_turns_at(machine.travel().highest);
+    load.end_stiffness = machine.end_stiffness();
+  }
+  return load;
+}
 
 }  // namespace
 
 World::World(TraceObserver* observer, const Mounted& mounted)
     : observer_(observer),
       machine_(mounted.machine),
-      rotor_(machine_.travel().lowest, machine_.travel().highest),
+      drive_train_(*this, {.motor = mounted.motor,
+                           .load = load_of(machine_, mounted.load),
+                           .tables = mounted.tables,
+                           .ideal_rotor = {machine_.travel().lowest, machine_.travel().highest},
+                           .reports_steps = observer != nullptr}),
       encoder_(mounted.encoder) {
-  tmc429_.emplace(static_cast<StepListener&>(*this)).set_detail(StepDetail::edges);
-  tmc262_.set_temperature(temperature_);
-  update_switches(now_);
-  follow_shaft(now_);
+  update_switches(now());
+  drive_train_.start();
 }
 
 void World::power_cycle() {
-  report(now_, "power", 0);
-  powered_at_ = now_;
-  tmc429_.emplace(static_cast<StepListener&>(*this)).set_detail(StepDetail::edges);
-  tmc262_.power_up();
-  eeprom_.lose_power(now_);
+  report(now(), "power", 0);
+  drive_train_.power_cycle();
+  eeprom_.lose_power(now());
   eeprom_.power_up();
   set_outputs(0);
   encoder_.power_up();
   pull_ups_ = true;
-  update_switches(now_);
-  direction_ = false;
-  report(now_, "power", 1);
+  update_switches(now());
+  report(now(), "power", 1);
 }
 
 void World::advance_to(Tick tick) {
-  while (now_ < tick) {
-    // A step may start the chatter of a contact: its first change must not lie within the same piece.
-    const Tick longest = machine_.shortest_chatter();
-    const Tick chatter = machine_.next_chatter(now_);
-    const Tick next = std::min({tick, chatter, longest < tick - now_ ? now_ + longest : tick});
-    tmc429_->advance(next - now_);
-    now_ = next;
-    tmc262_.advance(now_ - powered_at_);
-    if (now_ == chatter) update_switches(now_);
-  }
+  while (now() < tick) drive_train_.run(tick);
+}
+
+void World::advance_to_motion_change(Tick tick) {
+  const std::uint64_t before = motion_changes();
+  while (now() < tick && motion_changes() == before) drive_train_.run(tick);
 }
 
 std::uint32_t World::transfer_tmc429(std::uint32_t datagram) {
-  report(now_, "tmc429.datagram", datagram);
-  return tmc429_->transfer(datagram);
+  report(now(), "tmc429.datagram", datagram);
+  return drive_train_.transfer_tmc429(datagram);
 }
 
 std::uint32_t World::transfer_tmc262(std::uint32_t word) {
-  report(now_, "tmc262.word", word);
-  const std::uint32_t reply = tmc262_.transfer(word, now_ - powered_at_);
-  turn_rotor(now_);
-  return reply;
+  report(now(), "tmc262.word", word);
+  return drive_train_.transfer_tmc262(word);
 }
 
 void World::read_eeprom(std::uint16_t address, std::uint8_t* data, std::size_t length) const {
-  eeprom_.read(address, data, length, now_);
+  eeprom_.read(address, data, length, now());
 }
 
 void World::write_eeprom_page(std::uint16_t address, const std::uint8_t* data, std::size_t length) {
-  report(now_, "eeprom.write", address);
-  eeprom_.write_page(address, data, length, now_);
+  report(now(), "eeprom.write", address);
+  eeprom_.write_page(address, data, length, now());
 }
 
 void World::set_outputs(std::uint32_t levels) {
   if (levels != outputs_) {
     outputs_ = levels;
-    report(now_, "outputs", levels);
+    report(now(), "outputs", levels);
   }
 }
 
@@ -80,34 +85,33 @@ void World::set_inputs(std::uint32_t levels) {
   if (levels != inputs_) {
     inputs_ = levels;
     ++input_changes_;
-    report(now_, "inputs", levels);
+    report(now(), "inputs", levels);
   }
 }
 
 void World::set_driver_disable(bool level) {
-  report(now_, "driver_disable", level);
-  tmc262_.set_enable_not(level);
-  turn_rotor(now_);
+  report(now(), "driver_disable", level);
+  drive_train_.set_driver_disable(level);
 }
 
 void World::set_pull_ups(bool on) {
   pull_ups_ = on;
-  update_switches(now_);
+  update_switches(now());
 }
 
 void World::set_left_switch(bool open) {
   machine_.break_wire(MachineSwitch::left, open);
-  update_switches(now_);
+  update_switches(now());
 }
 
 void World::set_right_switch(bool open) {
   machine_.break_wire(MachineSwitch::right, open);
-  update_switches(now_);
+  update_switches(now());
 }
 
 void World::set_home_switch(bool open) {
   machine_.break_wire(MachineSwitch::home, open);
-  update_switches(now_);
+  update_switches(now());
 }
 
 void World::set_analog_input(unsigned channel, std::int32_t value) {
@@ -120,69 +124,45 @@ void World::set_supply_voltage(std::int32_t millivolts) {
   }
   supply_voltage_ = millivolts;
   ++input_changes_;
-  report(now_, "supply_voltage", millivolts);
-  tmc262_.set_supply_voltage(millivolts);
+  report(now(), "supply_voltage", millivolts);
+  drive_train_.set_supply_voltage(millivolts);
 }
 
 void World::set_load_measurement(std::int32_t value) {
-  load_measurement_ = value;
-  report(now_, "load_measurement", value);
-  tmc262_.set_load_measurement(value);
+  report(now(), "load_measurement", value);
+  drive_train_.set_load_measurement(value);
 }
 
 void World::pulse_step_input(bool direction) {
-  const std::uint64_t clock = now_ - powered_at_;
-  steps({driven_motor, 1, clock, clock, StepSignal::pulse, direction});
+  drive_train_.pulse_step(direction);
 }
 
 void World::set_temperature(std::int32_t celsius) {
   temperature_ = celsius;
-  report(now_, "temperature", celsius);
-  tmc262_.set_temperature(celsius);
-  turn_rotor(now_);
-}
-
-void World::steps(const StepRun& run) {
-  if (run.motor != driven_motor) {
-    return;
-  }
-  if (run.direction != direction_) {
-    direction_ = run.direction;
-    report(powered_at_ + run.first_clock, "direction", direction_);
-  }
-  if (run.signal != StepSignal::falling) {
-    step_edge(true, run.direction, run.first_clock);
-  }
-  if (run.signal != StepSignal::rising) {
-    step_edge(false, run.direction, run.first_clock);
-  }
-}
-
-void World::step_edge(bool rising, bool direction, std::uint64_t clock) {
-  const Tick tick = powered_at_ + clock;
-  report(tick, "step", rising);
-  tmc262_.steps(1, rising ? StepSignal::rising : StepSignal::falling, direction, clock, clock);
-  turn_rotor(tick);
-}
-
-void World::turn_rotor(Tick tick) {
-  const bool spi_sets_currents = tmc262::DriverConfiguration::StepDirOff::is_set(tmc262_.driver_configuration());
-  if (tmc262_.bridges_on() && !spi_sets_currents) {
-    const std::int64_t before = rotor_.angle();
-    rotor_.follow(tmc262_.microstep_position());
-    if (rotor_.angle() != before) follow_shaft(tick);
-  }
+  report(now(), "temperature", celsius);
+  drive_train_.set_temperature(celsius);
 }
 
 /// What the shaft moves: the encoder, the slider and its switches.
-void World::follow_shaft(Tick tick) {
-  const std::int64_t angle = rotor_.angle();
-  if (machine_.follow(angle, tick)) update_switches(tick);
+void World::shaft_turned(Tick tick) {
+  const std::int64_t angle = drive_train_.committed_shaft_angle();
+  const bool chatters = machine_.next_chatter(tick - 1) == tick;
+  if (machine_.follow(angle, tick) || chatters) update_switches(tick);
   encoder_.follow(encoder_.properties().on_load_side ? machine_.load_side_angle() : angle);
   if (observer_ == nullptr) return;
   if (encoder_.count() != traced_count_) report(tick, "encoder", traced_count_ = encoder_.count());
   if (machine_.place_unit() == PlaceUnit::micrometre && machine_.place() != traced_place_)
     report(tick, "stage", traced_place_ = machine_.place());
+}
+
+std::int64_t World::distance_to_event() const {
+  const EventDistance distance = machine_.next_event_distance(drive_train_.committed_shaft_angle());
+  return std::min(distance.down, distance.up);
+}
+
+ShaftEncoder& World::encoder() {
+  if (!encoder_.properties().on_load_side) encoder_.follow(rotor_angle());
+  return encoder_;
 }
 
 /// A closed contact pulls its input to ground, a pull-up resistor lifts that of an open one.
@@ -192,11 +172,13 @@ void World::update_switches(Tick tick) {
     if (high != before) report(tick, name, high);
     return high;
   };
+  const SwitchInputs before = levels_;
   levels_ = {.left = level("left_switch", MachineSwitch::left, levels_.left),
              .right = level("right_switch", MachineSwitch::right, levels_.right),
              .home = level("home_switch", MachineSwitch::home, levels_.home)};
-  tmc429_->set_left_switch(levels_.left);
-  tmc429_->set_right_switch(levels_.right);
+  if (levels_ == before) return;
+  ++switch_changes_;
+  drive_train_.set_switches(levels_.left, levels_.right);
 }
 
 void World::report(Tick tick, std::string_view signal, std::int64_t value) {

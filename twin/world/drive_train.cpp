@@ -1,0 +1,311 @@
+#include "twin/world/drive_train.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "twin/chip/microstep_table.hpp"
+#include "twin/physics/shaft.hpp"
+
+namespace opentmcl::twin {
+namespace {
+
+constexpr unsigned driven_motor = 0;  // motor 1: the only one with a driver on these modules
+
+constexpr double electrical_turn = tmc262::microstep_positions;
+
+/// Near a contact or an end the shaft is brought up to date this often: 40 us.
+constexpr Tick finest_span = 640;
+
+/// Less than this, and an ideal motor's steps are taken one by one: 1 ms.
+constexpr Tick shortest_jump = 1000 * ticks_per_microsecond;
+
+/// A rotor that is locked to the field swings about it by less than a full step; one that is not is moved by the field
+/// by no more than two within a span.
+constexpr double swing = 2 * tmc262::microsteps_per_fullstep;
+
+/// Steps of more than 1/16 full step are single jumps to the motor, unless microPlyer divides them.
+constexpr std::int32_t coarsest_smooth_step = tmc262::microsteps_per_fullstep / 16;
+
+constexpr double milliamperes = 1000;  // in 1 A
+constexpr double millivolts = 1000;    // in 1 V
+
+bool is_write(std::uint32_t datagram) {
+  return !tmc429::Datagram::Read::is_set({datagram});
+}
+
+bool steps_are_single_edges(const Tmc429& chip) {
+  using tmc429::InterfaceConfiguration;
+  return InterfaceConfiguration::StepOnBothEdges::is_set(
+      tmc429::word_in<InterfaceConfiguration>(chip.read(tmc429::read_datagram<InterfaceConfiguration>())));
+}
+
+bool spi_sets_currents(const Tmc262& chip) {
+  return tmc262::DriverConfiguration::StepDirOff::is_set(chip.driver_configuration());
+}
+
+/// Of the vector of both currents, in units of a sine's peak.
+double magnitude_of(Tmc262::CoilPair currents) {
+  const double a = currents.a;
+  const double b = currents.b;
+  return std::sqrt(a * a + b * b) / tmc262::coil_current_amplitude;
+}
+
+/// Where the field is within a turn. Currents from SPI make a field in the direction of their vector.
+std::uint32_t field_position(const Tmc262& chip) {
+  if (!spi_sets_currents(chip)) return chip.microstep_position();
+  const Tmc262::CoilPair currents = chip.coil_currents();
+  std::uint32_t nearest = 0;
+  std::int32_t best = std::numeric_limits<std::int32_t>::min();
+  for (std::uint32_t position = 0; position < tmc262::microstep_positions; ++position) {
+    const std::int32_t agreement =
+        currents.a * sine_current(position) + currents.b * sine_current(position + tmc262::microsteps_per_fullstep);
+    if (agreement > best) {
+      best = agreement;
+      nearest = position;
+    }
+  }
+  return nearest;
+}
+
+}  // namespace
+
+DriveTrain::DriveTrain(ShaftSurroundings& surroundings, Options options)
+    : surroundings_(surroundings),
+      reports_steps_(options.reports_steps),
+      ideal_rotor_(options.ideal_rotor),
+      load_(options.load) {
+  tmc429_.emplace(static_cast<StepListener&>(*this));
+  if (!options.motor) return;
+  motor_.emplace(*options.motor, options.tables ? options.tables : std::make_shared<TorqueTables>());
+  motor_->set_load(load_);
+  motor_->set_supply(supply_voltage_ / millivolts);
+}
+
+void DriveTrain::run(Tick tick) {
+  const Tick end = std::min(tick, end_of_span_);
+  running_ = true;
+  bool is_new_motion = false;
+  if (watches_ramp_) {
+    is_new_motion = tmc429_->advance_until_change(end - now_, driven_motor);
+  } else {
+    tmc429_->advance(end - now_);
+  }
+  running_ = false;
+  now_ = powered_at_ + tmc429_->clock();
+  tmc262_.advance(tmc429_->clock());
+  if (is_new_motion || now_ == end_of_span_) commit();
+}
+
+/// Brings the motor up to the present under the conditions with which the span began, and begins the next one.
+void DriveTrain::commit() {
+  if (motor_ && now_ > field_.begun()) {
+    motor_->advance_to(now_, field());
+    tmc262_.set_load_measurement(motor_->stall_guard_measurement());
+  }
+  running_ = true;
+  surroundings_.shaft_turned(now_);
+  running_ = false;
+  begin_span();
+}
+
+void DriveTrain::begin_span() {
+  if (tmc429_->at_target(driven_motor) != at_target_) {
+    at_target_ = !at_target_;
+    ++arrivals_;
+  }
+  field_.begin(now_, drive(), tmc429_->motion(driven_motor));
+  watches_ramp_ = !tmc429_->changes_velocity(driven_motor);
+  end_of_span_ = motor_ ? end_of_span() : end_of_ideal_span();
+}
+
+/// A point of the grid on which the motor is brought up to date.
+Tick DriveTrain::end_of_span() {
+  set_detail(field_.drive().is_coarse || tmc262_.interpolates());
+  const Tick end = next_event();
+  if (motor_->at_rest(field()) && tmc429_->clocks_for_steps(1, driven_motor) == never_tick) return end;
+  Tick span = motor_->longest_span(field());
+  if (!is_clear_of_events(span)) span = finest_span;
+  return std::min(end, (now_ / span + 1) * span);
+}
+
+/// Whether nothing can bring the shaft to a contact or an end within a span.
+bool DriveTrain::is_clear_of_events(Tick span) const {
+  const double seconds = static_cast<double>(span) * seconds_per_tick;
+  const double field_way = std::fabs(field().velocity) * seconds * electrical_turn;
+  const double rotor_way = std::fabs(motor_->state().velocity) * seconds * electrical_turn;
+  // A ramp changes its velocity by less than half of the greatest within the longest span.
+  const double reach = 1.5 * std::max(field_way, rotor_way) + swing;
+  return static_cast<double>(surroundings_.distance_to_event()) > reach;
+}
+
+/// An ideal rotor follows each run of steps at once. Where one of them may change a switch, they come one by one.
+Tick DriveTrain::end_of_ideal_span() {
+  const double step = std::max(field_.drive().microsteps_a_step, 1.0);
+  const std::int64_t distance = std::min(surroundings_.distance_to_event(), ideal_rotor_.distance_to_end());
+  const auto free_steps = static_cast<std::uint64_t>(static_cast<double>(distance) / step);
+  const Tick clear = free_steps == 0 ? 0 : tmc429_->clocks_for_steps(free_steps, driven_motor);
+  set_detail(clear < shortest_jump || tmc262_.interpolates());
+  const Tick span = clear < shortest_jump ? std::min(shortest_jump, surroundings_.shortest_event()) : clear;
+  return span < never_tick - now_ ? std::min(next_event(), now_ + span) : next_event();
+}
+
+/// The next tick at which something changes by itself.
+Tick DriveTrain::next_event() const {
+  Tick next = surroundings_.next_event(now_);
+  if (const auto shut_off = tmc262_.next_shut_off()) next = std::min(next, powered_at_ + *shut_off);
+  return next;
+}
+
+void DriveTrain::set_detail(bool every_step) {
+  tmc429_->set_detail(every_step || reports_steps_ ? StepDetail::edges : StepDetail::runs);
+}
+
+FieldTracker::Drive DriveTrain::drive() const {
+  using Coil = Tmc262::Coil;
+  const auto conducts = [this](Coil coil) { return tmc262_.bridge_on(coil) && tmc262_.coil_connected(coil); };
+  double amplitude = tmc262_.current_amplitude() / milliamperes;
+  if (spi_sets_currents(tmc262_)) amplitude *= magnitude_of(tmc262_.coil_currents());
+  const std::int32_t microsteps_a_pulse = tmc262_.microsteps_per_pulse();
+  return {.amplitude = amplitude,
+          .energised = tmc262_.bridge_on(Coil::a) || tmc262_.bridge_on(Coil::b),
+          .coil_a_connected = conducts(Coil::a),
+          .coil_b_connected = conducts(Coil::b),
+          .microsteps_a_step = microsteps_a_pulse * (steps_are_single_edges(*tmc429_) ? 0.5 : 1.0),
+          .is_coarse = microsteps_a_pulse > coarsest_smooth_step && !tmc262_.interpolates()};
+}
+
+/// Something was done to the driver: what that is to the motor acts from now on.
+void DriveTrain::after_change() {
+  field_.jump_to(field_position(tmc262_), now_);
+  if (motor_) {
+    if (!(field_.drive() == drive())) commit();
+  } else {
+    turn_ideal_rotor(now_);
+    begin_span();
+  }
+}
+
+std::uint32_t DriveTrain::transfer_tmc429(std::uint32_t datagram) {
+  if (!is_write(datagram)) return tmc429_->transfer(datagram);
+  // The motion up to now is that of the registers before.
+  commit();
+  const std::uint32_t reply = tmc429_->transfer(datagram);
+  begin_span();
+  return reply;
+}
+
+std::uint32_t DriveTrain::transfer_tmc262(std::uint32_t word) {
+  const std::uint32_t reply = tmc262_.transfer(word, now_ - powered_at_);
+  after_change();
+  return reply;
+}
+
+void DriveTrain::power_cycle() {
+  commit();
+  powered_at_ = now_;
+  tmc429_.emplace(static_cast<StepListener&>(*this));
+  tmc429_->set_left_switch(left_switch_);
+  tmc429_->set_right_switch(right_switch_);
+  tmc262_.power_up();
+  direction_ = false;
+  after_change();
+  begin_span();
+}
+
+void DriveTrain::set_switches(bool left, bool right) {
+  left_switch_ = left;
+  right_switch_ = right;
+  // From within a step or the end of a span, the next span has not begun.
+  const bool is_from_outside = !running_;
+  if (is_from_outside) commit();
+  tmc429_->set_left_switch(left);
+  tmc429_->set_right_switch(right);
+  if (is_from_outside) begin_span();
+}
+
+void DriveTrain::set_load(const Load& load) {
+  if (load == load_) return;
+  commit();
+  load_ = load;
+  if (motor_) motor_->set_load(load);
+  begin_span();
+}
+
+void DriveTrain::set_supply_voltage(std::int32_t voltage) {
+  commit();
+  supply_voltage_ = voltage;
+  if (motor_) motor_->set_supply(voltage / millivolts);
+  tmc262_.set_supply_voltage(voltage);
+  after_change();
+  begin_span();
+}
+
+void DriveTrain::set_coil_connected(Tmc262::Coil coil, bool connected) {
+  tmc262_.set_coil_connected(coil, connected);
+  after_change();
+}
+
+void DriveTrain::set_short_to_ground(Tmc262::Coil coil, bool shorted) {
+  tmc262_.set_short_to_ground(coil, shorted);
+  after_change();
+  begin_span();
+}
+
+void DriveTrain::set_temperature(std::int32_t celsius) {
+  tmc262_.set_temperature(celsius);
+  after_change();
+}
+
+void DriveTrain::set_driver_disable(bool level) {
+  tmc262_.set_enable_not(level);
+  after_change();
+}
+
+void DriveTrain::set_load_measurement(std::int32_t value) {
+  tmc262_.set_load_measurement(value);
+}
+
+void DriveTrain::pulse_step(bool direction) {
+  const std::uint64_t clock = now_ - powered_at_;
+  steps({driven_motor, 1, clock, clock, StepSignal::pulse, direction});
+}
+
+void DriveTrain::steps(const StepRun& run) {
+  if (run.motor != driven_motor) return;
+  const Tick tick = powered_at_ + run.last_clock;
+  if (reports_steps_) {
+    if (run.direction != direction_) surroundings_.report(tick, "direction", run.direction);
+    if (run.signal != StepSignal::falling) surroundings_.report(tick, "step", 1);
+    if (run.signal != StepSignal::rising) surroundings_.report(tick, "step", 0);
+  }
+  direction_ = run.direction;
+  const std::int64_t moved = tmc262_.steps(run.count, run.signal, run.direction, run.first_clock, run.last_clock);
+  field_.move(moved, tick);
+  if (motor_) return;
+  if (run.count == 1) {
+    turn_ideal_rotor(tick);
+  } else if (tmc262_.bridges_on()) {
+    ideal_rotor_.turn(moved);
+    surroundings_.shaft_turned(tick);
+  }
+}
+
+void DriveTrain::turn_ideal_rotor(Tick tick) {
+  if (motor_ || !tmc262_.bridges_on() || spi_sets_currents(tmc262_)) return;
+  const std::int64_t before = ideal_rotor_.angle();
+  ideal_rotor_.follow(tmc262_.microstep_position());
+  if (ideal_rotor_.angle() != before) surroundings_.shaft_turned(tick);
+}
+
+std::int64_t DriveTrain::shaft_angle() const {
+  if (!motor_ || motor_->now() == now_) return committed_shaft_angle();
+  return microstep_at(motor_->state_at(now_, field()).angle);
+}
+
+std::int64_t DriveTrain::committed_shaft_angle() const {
+  if (!motor_) return ideal_rotor_.angle();
+  return microstep_at(motor_->state().angle);
+}
+
+}  // namespace opentmcl::twin

@@ -1,0 +1,59 @@
+// Between chips and motor: where the field of the coils is, and how it moves.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "twin/chip/step_signal.hpp"
+#include "twin/chip/tmc262.hpp"
+#include "twin/chip/tmc429.hpp"
+#include "twin/physics/motor_shaft.hpp"
+#include "twin/world/trace.hpp"
+
+namespace opentmcl::twin {
+
+/// The motor asks for the field as a smooth motion over a span of time; the chips know single steps. Time is cut into
+/// spans by the world; within one, everything but the position of the field is as it was when the span began.
+class FieldTracker {
+ public:
+  /// The coils' currents and the step size as the chips have them now.
+  struct Drive {
+    double amplitude = 0;          ///< A, peak
+    bool energised = false;        ///< some bridge is on
+    bool coil_a_connected = true;  ///< that of the sine of MSTEP
+    bool coil_b_connected = true;  ///< that of its cosine
+    double microsteps_a_step = 1;  ///< of 1/256 full step, for one step of the motion controller
+    bool is_coarse = false;        ///< single steps are to be told to the motor
+
+    friend bool operator==(const Drive&, const Drive&) = default;
+  };
+
+  /// Where the field is, in microsteps of 1/256 full step. Counts on over turns.
+  std::int64_t position() const { return position_; }
+
+  /// The driver's sequencer has moved on by so many microsteps, the last of them at `tick`.
+  void move(std::int64_t microsteps, Tick tick);
+  /// The driver's sequencer stands elsewhere, as after a reset: the field jumps there by the shortest way.
+  void jump_to(std::uint32_t microstep_position, Tick tick);
+
+  /// A span begins.
+  void begin(Tick now, const Drive& drive, const Tmc429::Motion& motion);
+  Tick begun() const { return begun_; }
+  const Drive& drive() const { return drive_; }
+
+  /// The field over the present span up to `now`. Valid until the next call of anything that is not const.
+  Field until(Tick now, const Tmc429::Motion& motion) const;
+
+ private:
+  double turns_per_second(const Tmc429::Motion& motion) const;
+
+  std::int64_t position_ = 0;
+  Tick begun_ = 0;
+  Drive drive_;
+  double start_angle_ = 0;     ///< electrical turns
+  double start_velocity_ = 0;  ///< electrical turns/s
+  std::int64_t start_position_ = 0;
+  std::vector<Field::Step> steps_;
+};
+
+}  // namespace opentmcl::twin

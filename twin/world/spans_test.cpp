@@ -1,0 +1,59 @@
+// However time is cut and whoever looks, a world with a motor goes the same way.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <string>
+
+#include "twin/world/world_test_bench.hpp"
+
+namespace opentmcl::twin {
+namespace {
+
+World::Mounted bench_machine() {
+  return {.machine = LinearStageDimensions{}, .motor = motors().front()};
+}
+
+/// A session at the bench: what happens does not depend on the slices, only on the ticks.
+struct Session {
+  std::uint64_t seed;
+  Tick slice;
+  bool looks;
+
+  std::string run() const {
+    TraceText trace;
+    World world(&trace, bench_machine());
+    start(world, 2);
+    const auto pass = [&](Tick span) {
+      const Tick end = world.now() + span;
+      while (world.now() < end) {
+        world.advance_to(std::min(end, world.now() + slice));
+        if (looks) static_cast<void>(world.rotor_angle() + world.encoder().count());
+      }
+    };
+    std::uint64_t random = seed;
+    const auto next = [&random](std::uint64_t below) {
+      random = random * 6364136223846793005u + 1442695040888963407u;
+      return (random >> 33) % below;
+    };
+    for (int i = 0; i < 6; ++i) {
+      Load load;
+      load.torque = 0.05 * static_cast<double>(next(8));
+      world.set_load(load);
+      set<tmc429::TargetPosition>(world, static_cast<std::int32_t>(next(40'000)) - 20'000);
+      pass(next(200 * millisecond) + 1);
+      if (next(3) == 0) world.set_right_switch(next(2) == 0);
+    }
+    return trace.text() + std::to_string(world.rotor_angle()) + " " + std::to_string(world.motor()->state().velocity);
+  }
+};
+
+RC_GTEST_PROP(Spans, DoNotDependOnHowTimeIsCutOrWhoLooks, ()) {
+  const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+  const auto slice = *rc::gen::element<Tick>(1'000, 7'777, 16'000, 100'000);
+  const std::string whole = Session{seed, 1'000'000'000, false}.run();
+  RC_ASSERT((Session{seed, slice, false}.run()) == whole);
+  RC_ASSERT((Session{seed, slice, true}.run()) == whole);
+}
+
+}  // namespace
+}  // namespace opentmcl::twin
