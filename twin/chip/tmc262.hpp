@@ -61,7 +61,8 @@ class Tmc262 {
   void power_up();
 
   /// Steps in one direction, as a StepRun has them: `count` of them from `first_clock` to `last_clock`, taken as evenly
-  /// spaced. Only microPlyer minds the spacing: give it each step on its own while interpolates().
+  /// spaced. Give each step on its own while interpolates(), for microPlyer measures their spacing; and let no run
+  /// lead over next_shut_off() if it must be exact which of its steps still find the bridge on.
   /// @param direction level of DIR: low counts up
   /// @return how far the sequencer moved, in 1/256 of a full step and without its wrap; 0 when it takes no steps
   std::int64_t steps(std::uint64_t count, StepSignal first, bool direction, std::uint64_t first_clock,
