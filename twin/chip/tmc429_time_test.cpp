@@ -121,7 +121,8 @@ class ThreeTimes {
         return write(tmc429::Word<tmc429::Interrupts>{static_cast<std::uint32_t>(dice_.below(0x10000))}, motor);
       case 14:
         write(tmc429::ComparePosition::Value::of(dice_.between(0, 300)));
-        return write(tmc429::Word<tmc429::ComparePositionInterrupt>{static_cast<std::uint32_t>(dice_.below(4))});
+        return write(tmc429::ComparePositionInterrupt::Enabled::of(!dice_.once_in(4)) |
+                     tmc429::ComparePositionInterrupt::Occurred::of(dice_.once_in(2)));
       case 15:
         return write(InterfaceConfiguration::EnableStepDir::of(!dice_.once_in(8)) |
                      InterfaceConfiguration::EnableRightSwitches::set |
