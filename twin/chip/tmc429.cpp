@@ -238,22 +238,21 @@ std::uint64_t Tmc429::advance_motor(unsigned motor, std::uint64_t end, Until unt
     // The ramp must not run past a delayed step: that may press a switch.
     const std::optional<std::uint64_t> delayed = output.delayed_edge();
     const std::uint64_t end_tick = tick_at(delayed ? std::min(end, *delayed) : end);
-    const Tmc429Ramp::Steps steps = axis.advance(end_tick, reach_to_consequences(motor), until, step_clocks);
-    if (steps.count != 0) {
-      after_position_change();
-      give_out(motor, steps, step_clocks);
-    }
-    if (until == Until::velocity_changes && axis.ramp().state().velocity != velocity_before) {
-      end = clock_of(axis.ramp().now());
-      until = Until::end;
-    }
-    if (steps.count != 0 || axis.ramp().now() < end_tick) {
-      continue;
-    }
-    if (!delayed || *delayed > end) {
+    if (axis.ramp().now() < end_tick) {
+      const Tmc429Ramp::Steps steps = axis.advance(end_tick, reach_to_consequences(motor), until, step_clocks);
+      if (steps.count != 0) {
+        after_position_change();
+        give_out(motor, steps, step_clocks);
+      }
+      if (until == Until::velocity_changes && axis.ramp().state().velocity != velocity_before) {
+        end = clock_of(axis.ramp().now());
+        until = Until::end;
+      }
+    } else if (delayed && *delayed <= end) {
+      output.advance(*delayed, output_settings_);
+    } else {
       break;
     }
-    output.advance(*delayed, output_settings_);
   }
   output.flush();
   return end;
