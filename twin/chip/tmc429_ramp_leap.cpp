@@ -196,6 +196,8 @@ bool Tmc429Ramp::leap_period_by_period(Passage& passage, const Heading& heading,
   const std::uint64_t end = state_.now + periods * period;
   GoalOnTheWay goal{state_, heading.distance, heading.goal};
   LineDetector line;
+  std::vector<std::uint64_t>* const listed = passage.step_ticks;
+  bool no_step_yet = passage.steps.count == 0;
   std::int32_t velocity = heading.velocity;
   std::uint64_t steps_given = 0;
   Tmc429PulseTrain train = pulses_until(state_.now);
@@ -214,11 +216,13 @@ bool Tmc429Ramp::leap_period_by_period(Passage& passage, const Heading& heading,
       break;
     }
     if (steps != 0) {
-      if (passage.steps.count == 0 && steps_given == 0) {
+      if (no_step_yet) {
         passage.begin(train.tick_of_first_step(), heading.decreasing);
+        no_step_yet = false;
       }
-      if (passage.step_ticks != nullptr) {
-        train.list_steps(*passage.step_ticks);
+      if (listed != nullptr) {
+        const Tmc429PulseTrain copy = train;  // so that `train` itself can stay in registers
+        copy.list_steps(*listed);
       }
       latest_with_steps = train;
       steps_given += steps;
