@@ -17,7 +17,7 @@ class Dice {
     return lowest + static_cast<std::int32_t>(below(static_cast<std::uint64_t>(highest - lowest) + 1));
   }
   bool once_in(std::uint64_t times) { return below(times) == 0; }
-  /// Up to 2^bits - 1, every length in bits as likely as any other.
+  /// 0…2^bits-1, small numbers as likely as large ones: each length in bits about as often as any other.
   std::uint64_t of_any_length(unsigned bits) { return below(std::uint64_t{2} << below(bits)); }
   /// The same with either sign.
   std::int32_t signed_of_any_length(unsigned bits) {

@@ -19,6 +19,16 @@ constexpr std::uint64_t worthwhile_periods(std::int32_t change) {
   return change == 0 ? 8 : 256;
 }
 
+/// The largest number that fits, when `fitting` does, `too_many` does not, and all up to the wanted one do.
+template <class Fits>
+std::uint64_t last_that_fits(std::uint64_t fitting, std::uint64_t too_many, Fits fits) {
+  while (fitting + 1 < too_many) {
+    const std::uint64_t middle = fitting + (too_many - fitting) / 2;
+    (fits(middle) ? fitting : too_many) = middle;
+  }
+  return fitting;
+}
+
 /// The goal of a velocity on the way to the target, which falls as the distance does. Calculated anew only where it
 /// does.
 class GoalOnTheWay {
@@ -153,20 +163,11 @@ bool Tmc429Ramp::leap_along_line(Passage& passage, const Heading& heading, std::
     return !follows_target || state_.velocity_limit(heading.distance - line.steps_after(count - 1)) * fraction >=
                                   line.velocity_after(count);
   };
-  std::uint64_t fitting = passage.kept_velocity ? 1 : worthwhile_periods(line.change);
-  if (periods < fitting) {
+  const std::uint64_t worthwhile = passage.kept_velocity ? 1 : worthwhile_periods(line.change);
+  if (periods < worthwhile || !fits(worthwhile)) {
     return false;
   }
-  if (fits(periods)) {
-    fitting = periods;
-  } else if (!fits(fitting)) {
-    return false;
-  } else {
-    for (std::uint64_t too_many = periods; fitting + 1 < too_many;) {
-      const std::uint64_t middle = (fitting + too_many) / 2;
-      (fits(middle) ? fitting : too_many) = middle;
-    }
-  }
+  const std::uint64_t fitting = fits(periods) ? periods : last_that_fits(worthwhile, periods, fits);
   if (line.change == 0) {
     coast(passage, line.end_of(fitting));
     return true;
