@@ -30,8 +30,10 @@ Phasor AveragedMotor::regulator_voltage(Phasor current, Phasor wanted, Phasor em
 }
 
 AveragedMotor::OperatingPoint AveragedMotor::at(double load_angle) const {
-  const auto& [torque_constant, inductance, resistance, supply, amplitude] = conditions_;
-  const Phasor wanted = amplitude * unit_phasor(load_angle / radians_per_turn);
+  const double torque_constant = conditions_.torque_constant;
+  const double inductance = conditions_.inductance;
+  const double resistance = conditions_.resistance;
+  const Phasor wanted = conditions_.amplitude * unit_phasor(load_angle / radians_per_turn);
   const Phasor emf{0, torque_constant * speed_ / MotorData::pole_pairs};
   const double reactance = speed_ * inductance;
   const double regulator_gain = inductance / regulator_time_constant;
@@ -42,7 +44,7 @@ AveragedMotor::OperatingPoint AveragedMotor::at(double load_angle) const {
     return (drive - (1 - gain) * emf) / Phasor{resistance + gain * (regulator_gain - resistance), reactance};
   };
   const auto modulation_at = [&](Phasor current) {
-    return regulator_voltage(current, wanted, emf, speed_).magnitude() / supply;
+    return regulator_voltage(current, wanted, emf, speed_).magnitude() / conditions_.supply;
   };
 
   Phasor current = current_at(1);
@@ -78,15 +80,16 @@ AveragedMotor::OperatingPoint AveragedMotor::at(double load_angle) const {
 }
 
 AveragedMotor::Response AveragedMotor::response(const OperatingPoint& point, double load_angle) const {
-  const auto& [torque_constant, inductance, resistance, supply, amplitude] = conditions_;
+  const double torque_constant = conditions_.torque_constant;
+  const double inductance = conditions_.inductance;
   // L dI/dt = V - R I - j w L I - E in the rotor's frame, the field turning on at its speed.
   const auto current_rate = [&](Phasor current, double speed, double angle) {
-    const Phasor wanted = amplitude * unit_phasor(angle / radians_per_turn);
+    const Phasor wanted = conditions_.amplitude * unit_phasor(angle / radians_per_turn);
     const Phasor emf{0, torque_constant * speed / MotorData::pole_pairs};
     const Phasor asked = regulator_voltage(current, wanted, emf, speed_);
-    const Phasor voltage = limiter_gain(asked.magnitude() / supply) * asked;
+    const Phasor voltage = limiter_gain(asked.magnitude() / conditions_.supply) * asked;
     const Phasor reactance{0, speed * inductance};
-    return 1 / inductance * (voltage - resistance * current - reactance * current - emf);
+    return 1 / inductance * (voltage - conditions_.resistance * current - reactance * current - emf);
   };
   // Central differences about the point.
   const auto difference = [&](Phasor current_step, double speed_step, double angle_step, double width) {

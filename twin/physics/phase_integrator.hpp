@@ -29,13 +29,13 @@ struct MotorConditions {
   double resistance;  ///< ohm, of a coil at its present temperature
 };
 
-/// Classical Runge-Kutta of the fourth order. The grid of steps lies on multiples of `step` of absolute time, so that a
+/// Classical Runge-Kutta of the fourth order. The grid of steps lies on multiples of `grid` of absolute time, so that a
 /// span can be cut at such ticks without another result; the first and the last step of a span may be shorter, and a
 /// step of the field ends one.
 /// @param end   not before begin
-/// @param step  ticks; 320 (20 µs) agrees with 1 µs to all digits of the load angle, 640 to 0.5 %
+/// @param grid  ticks; 320 (20 µs) agrees with 1 µs to all digits of the load angle, 640 to 0.5 %
 PhaseState integrate(const MotorConditions& conditions, const Field& field, const PhaseState& state, Tick begin,
-                     Tick end, Tick step);
+                     Tick end, Tick grid);
 
 /// Torque of the currents on the rotor, N m, without detent.
 double field_torque(const MotorData& motor, const PhaseState& state);

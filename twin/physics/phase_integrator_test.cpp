@@ -348,6 +348,23 @@ TEST(PhaseIntegrator, ASpringPullsTheRotorBack) {
   EXPECT_NEAR(bench.lead() * degrees_per_turn, std::asin((0.126 - 0.02) / 0.55) * 180 / M_PI, 3);
 }
 
+// A load far beyond every motor tears the shaft away; it stays a number.
+RC_GTEST_PROP(PhaseIntegrator, StaysFiniteUnderAnyLoad, ()) {
+  Bench bench;
+  bench.field.velocity = *rc::gen::inRange(-5000, 5000);
+  bench.field.energised = *rc::gen::arbitrary<bool>();
+  bench.load.torque = *rc::gen::inRange(-100, 100);
+  bench.load.viscous_friction = *rc::gen::inRange(0, 100) * 0.1;
+  bench.load.coulomb_friction = *rc::gen::inRange(0, 10);
+  bench.load.spring = *rc::gen::inRange(0, 2) * 10;
+  bench.load.highest_angle = *rc::gen::inRange(0, 100);
+  bench.load.end_stiffness = *rc::gen::inRange(1, 100'000);
+  bench.run(0.2);
+  RC_ASSERT(std::isfinite(bench.state.angle));
+  RC_ASSERT(std::fabs(bench.state.velocity) < 1e8);
+  RC_ASSERT(std::fabs(bench.state.current_a) < 1e4);
+}
+
 // ---- Steps and resonance
 
 TEST(PhaseIntegrator, AFullStepRingsAtTheNaturalFrequency) {
