@@ -39,7 +39,7 @@ class Bench {
   }
 
   void run(double seconds) {
-    const auto ticks = static_cast<Tick>(seconds / seconds_per_tick + 0.5);
+    const auto ticks = static_cast<Tick>(std::llround(seconds / seconds_per_tick));
     for (const Tick end = shaft.now() + ticks; shaft.now() < end;)
       advance(std::min(shaft.longest_span(field), end - shaft.now()));
   }

@@ -28,7 +28,7 @@ class Bench {
 
   MotorConditions conditions() const { return {&motor, &load, supply, motor.winding_resistance}; }
 
-  void run(double seconds) { run_ticks(static_cast<Tick>(seconds / seconds_per_tick + 0.5)); }
+  void run(double seconds) { run_ticks(static_cast<Tick>(std::llround(seconds / seconds_per_tick))); }
 
   void run_ticks(Tick span) {
     for (Tick left = span; left > 0;) {
