@@ -14,8 +14,8 @@ namespace {
 
 using Kind = Quantity::Kind;
 
-constexpr double millivolt = 0.001;     // V
-constexpr double micrometre = 0.001;    // mm
+constexpr double millivolts = 1000;     // in 1 V
+constexpr double micrometres = 1000;    // in 1 mm
 constexpr double degrees_a_turn = 360;  // of the shaft
 
 std::int32_t rounded(double value) {
@@ -88,15 +88,15 @@ constexpr Quantity rows[] = {
     {.name = "supply_voltage",
      .unit = "V",
      .description = "Motor supply. Below 7 V the driver loses its registers.",
-     .trace_unit = millivolt,
+     .trace_scale = millivolts,
      .highest = 60,
-     .read = [](const World& world) { return world.supply_voltage() * millivolt; },
-     .write = [](World& world, double value) { world.set_supply_voltage(rounded(value / millivolt)); }},
+     .read = [](const World& world) { return world.supply_voltage() / millivolts; },
+     .write = [](World& world, double value) { world.set_supply_voltage(rounded(value * millivolts)); }},
     {.name = "temperature",
      .unit = "degC",
      .description = "Of the board and the driver. Warning from 100, bridges off from 150.",
      .kind = Kind::whole,
-     .trace_unit = 1,
+     .trace_scale = 1,
      .lowest = -40,
      .highest = 200,
      .read = [](const World& world) { return static_cast<double>(world.temperature()); },
@@ -106,7 +106,7 @@ constexpr Quantity rows[] = {
      .unit = "",
      .description = "What stallGuard2 measures of the load: 0 is a stall, 1023 no load.",
      .kind = Kind::whole,
-     .trace_unit = 1,
+     .trace_scale = 1,
      .highest = tmc262::maximum_stall_guard_value,
      .read = [](const World& world) { return static_cast<double>(world.load_measurement()); },
      .write = [](World& world, double value) { world.set_load_measurement(rounded(value)); }},
@@ -125,8 +125,8 @@ constexpr Quantity rows[] = {
     {.name = "stage",
      .unit = "mm",
      .description = "Place of the slider from the middle of its travel.",
-     .trace_unit = micrometre,
-     .read = [](const World& world) { return static_cast<double>(world.machine().place()) * micrometre; },
+     .trace_scale = micrometres,
+     .read = [](const World& world) { return static_cast<double>(world.machine().place()) / micrometres; },
      .exists =
          [](const World& world) {
            return std::holds_alternative<LinearStageDimensions>(world.machine().dimensions());
@@ -143,7 +143,7 @@ constexpr Quantity rows[] = {
      .unit = "",
      .description = "Counts of the encoder on the shaft since power-on, 1024 a turn.",
      .kind = Kind::whole,
-     .trace_unit = 1,
+     .trace_scale = 1,
      .read = [](const World& world) { return static_cast<double>(world.encoder().count()); }},
     {.name = "encoder.near_null",
      .unit = "",
@@ -155,7 +155,7 @@ constexpr Quantity rows[] = {
      .unit = "",
      .description = "Level at the input for the left limit switch; high while the contact is open.",
      .kind = Kind::truth,
-     .trace_unit = 1,
+     .trace_scale = 1,
      .read = [](const World& world) { return world.left_switch() ? 1.0 : 0.0; }},
     {.name = "left_switch.held_open",
      .unit = "",
@@ -168,7 +168,7 @@ constexpr Quantity rows[] = {
      .unit = "",
      .description = "Level at the input for the right limit switch; high while the contact is open.",
      .kind = Kind::truth,
-     .trace_unit = 1,
+     .trace_scale = 1,
      .read = [](const World& world) { return world.right_switch() ? 1.0 : 0.0; }},
     {.name = "right_switch.held_open",
      .unit = "",
@@ -181,7 +181,7 @@ constexpr Quantity rows[] = {
      .unit = "",
      .description = "Level at the input for the home switch; high while the contact is open.",
      .kind = Kind::truth,
-     .trace_unit = 1,
+     .trace_scale = 1,
      .read = [](const World& world) { return world.home_switch() ? 1.0 : 0.0; }},
     {.name = "home_switch.held_open",
      .unit = "",
@@ -209,7 +209,7 @@ constexpr Quantity rows[] = {
      .unit = "",
      .description = "Levels of all digital inputs as bits: IN0 is bit 0, step_direction.enable bit 11.",
      .kind = Kind::whole,
-     .trace_unit = 1,
+     .trace_scale = 1,
      .read = [](const World& world) { return static_cast<double>(world.inputs()); }},
     analog_row<0>("analog_input.0", "Converter value of analog input AIN_0."),
     analog_row<1>("analog_input.1", "Converter value of analog input AIN_1."),
@@ -228,7 +228,7 @@ constexpr Quantity rows[] = {
      .description =
          "Levels of all digital outputs as bits: OUT0 is bit 0, the pull-ups bit 8, ENN of the driver bit 9.",
      .kind = Kind::whole,
-     .trace_unit = 1,
+     .trace_scale = 1,
      .read = [](const World& world) { return static_cast<double>(world.outputs()); }},
     // ---- The motion controller
     register_row<tmc429::ActualPosition>("position", "Steps that the TMC429 has given out: X_ACTUAL."),
@@ -247,13 +247,13 @@ constexpr Quantity rows[] = {
      .unit = "",
      .description = "Level of the TMC429's STEP line.",
      .kind = Kind::truth,
-     .trace_unit = 1,
+     .trace_scale = 1,
      .read = [](const World& world) { return world.tmc429().step_pin() ? 1.0 : 0.0; }},
     {.name = "direction",
      .unit = "",
      .description = "Level of the TMC429's DIR line.",
      .kind = Kind::truth,
-     .trace_unit = 1,
+     .trace_scale = 1,
      .read = [](const World& world) { return world.tmc429().direction_pin() ? 1.0 : 0.0; }},
     {.name = "tmc429.unmodelled_writes",
      .unit = "",

@@ -32,8 +32,8 @@ struct Quantity {
   std::string_view unit;
   std::string_view description;
   Kind kind = Kind::real;
-  /// What 1 in the trace is in `unit`; 0 for a quantity that is not in the trace.
-  double trace_unit = 0;
+  /// What the trace says for 1 in `unit`: 1000 where it counts mV. 0 for a quantity that is not in the trace.
+  double trace_scale = 0;
   /// What can be written; without meaning where nothing can.
   double lowest = 0;
   double highest = 0;

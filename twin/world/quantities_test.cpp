@@ -71,8 +71,8 @@ TEST(Quantities, HaveTheValuesOfTheTraceInTheirUnits) {
       const Quantity* const quantity = find_quantity(signal);
       const auto& only = trace_only_signals();
       const bool is_event = std::any_of(only.begin(), only.end(), [&](const auto& row) { return row.name == signal; });
-      EXPECT_NE(quantity != nullptr && quantity->trace_unit != 0, is_event) << signal;
-      if (quantity != nullptr) latest[quantity] = static_cast<double>(value) * quantity->trace_unit;
+      EXPECT_NE(quantity != nullptr && quantity->trace_scale != 0, is_event) << signal;
+      if (quantity != nullptr) latest[quantity] = static_cast<double>(value) / quantity->trace_scale;
     }
     std::map<const Quantity*, double> latest;
   } watch;
