@@ -4,12 +4,12 @@
 # shellcheck disable=SC2034  # the lists are read by the scripts that source this file
 packages_to_build=(
   cmake ninja-build g++ ccache
-  libboost1.81-dev libcli11-dev libfmt-dev nlohmann-json3-dev
+  libboost1.81-dev libcli11-dev libfmt-dev libtomlplusplus-dev nlohmann-json3-dev
 )
 # shellcheck disable=SC2034
 packages_to_test=(
-  libgtest-dev libgmock-dev librapidcheck-dev libtomlplusplus-dev
-  python3 python3-serial python3-can
+  libgtest-dev libgmock-dev librapidcheck-dev
+  python3 python3-serial python3-can python3-jsonschema
 )
 # shellcheck disable=SC2034
 packages_to_check=(

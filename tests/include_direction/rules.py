@@ -65,14 +65,32 @@ RULES = (
     Rule("twin/physics", (), TIMELESS),
     Rule("twin/world", ("twin/chip", "twin/physics"), TIMELESS),
     Rule("lang", ("firmware/spec", "firmware/wire"), STANDARD),
+    # Scenarios: what happens to a module and its machine, read from TOML, and recordings of it.
+    Rule(
+        "scenario",
+        (
+            "boards/twin",
+            "twin/world",
+            "lang",
+            "firmware/hal",
+            "firmware/spec",
+            "firmware/wire",
+            "firmware/module/module.hpp",
+        ),
+        STANDARD | {"toml++/toml.h", "nlohmann/json.hpp"},
+    ),
     Rule("client", ("firmware/spec", "firmware/wire"), ANY_SYSTEM_HEADER),
     Rule(
         "server",
         ("client", "lang", "boards/twin", "twin", "firmware/hal", "firmware/spec", "firmware/wire"),
         ANY_SYSTEM_HEADER,
     ),
-    Rule("apps", ("firmware", "boards/twin", "twin", "lang", "client", "server"), ANY_SYSTEM_HEADER),
-    Rule("tests", ("firmware", "boards/twin", "twin", "lang", "client", "server", "apps"), ANY_SYSTEM_HEADER),
+    Rule("apps", ("firmware", "boards/twin", "twin", "lang", "scenario", "client", "server"), ANY_SYSTEM_HEADER),
+    Rule(
+        "tests",
+        ("firmware", "boards/twin", "twin", "lang", "scenario", "client", "server", "apps"),
+        ANY_SYSTEM_HEADER,
+    ),
 )
 
 # A test or benchmark next to its source runs on the host: it may use these and the whole standard library on top.
