@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "apps/tmcl/bench_session.hpp"
 #include "apps/tmcl/commands.hpp"
 #include "apps/tmcl/context.hpp"
 #include "apps/tmcl/motion_state.hpp"
@@ -39,6 +40,7 @@ struct SimOptions {
   std::string eeprom;
   std::string program;
   std::string machine = "stage";
+  BenchSession::Options bench;
   bool no_start = false;
   bool quiet = false;
 };
@@ -175,9 +177,19 @@ class LiveDisplay {
 };
 
 Result<void> run_sim(const Context& context, const SimOptions& options) {
-  const Result<const ModuleDescription*> found = named_module(options.module);
-  if (!found) return found.error();
-  const ModuleDescription& description = **found;
+  BenchSession::Options bench_options = options.bench;
+  bench_options.json = context.json;
+  Result<std::unique_ptr<BenchSession>> opened_bench = BenchSession::open(bench_options);
+  if (!opened_bench) return opened_bench.error();
+  BenchSession& bench = **opened_bench;
+  scenario::Scenario& scenario = bench.scenario();
+  if (!bench.has_scenario()) {
+    const Result<const ModuleDescription*> found = named_module(options.module);
+    if (!found) return found.error();
+    scenario.module = *found;
+    if (options.machine == "free") scenario.machine.kind = scenario::MachineDescription::Kind::free;
+  }
+  const ModuleDescription& description = *scenario.module;
   const Result<double> speed = parse_speed(options.speed);
   if (!speed) return speed.error();
   server::LiveSimulation::Options pace{*speed, std::nullopt};
@@ -186,14 +198,17 @@ Result<void> run_sim(const Context& context, const SimOptions& options) {
     if (!duration) return duration.error();
     pace.duration = *duration;
   }
+  if (bench.has_scenario() && !pace.duration) pace.duration = scenario.duration;
   std::vector<Command> commands;
-  if (!options.program.empty()) {
+  const std::string& program = options.program.empty() ? scenario.program : options.program;
+  if (!program.empty()) {
     lang::AssemblerOptions assembler;
     assembler.module = &description;
-    const Result<lang::AssemblyResult> assembled = assemble_file(options.program, assembler);
+    const Result<lang::AssemblyResult> assembled = assemble_file(program, assembler);
     if (!assembled) return assembled.error();
     commands = assembled->program->commands;
   }
+  if (Result<void> prepared = bench.prepare_recording(); !prepared) return prepared;
   std::unique_ptr<KeptEeprom> eeprom;
   if (!options.eeprom.empty()) {
     Result<std::unique_ptr<KeptEeprom>> opened = KeptEeprom::open(options.eeprom, description);
@@ -213,10 +228,10 @@ Result<void> run_sim(const Context& context, const SimOptions& options) {
   std::vector<hal::Port> ports = endpoints->ports();
   ports.push_back({&line.port(), hal::PortKind::usb});
 
-  VirtualModule::Options board;
-  if (options.machine == "free") board.machine = twin::RotaryAxisDimensions{};
+  VirtualModule::Options board = scenario.board();
   board.can = endpoints->can_port();
-  VirtualModule module(description, ports, board);
+  VirtualModule module(description, ports, board, bench.observer());
+  bench.prepare(module);
   if (eeprom) {
     if (Result<void> loaded = eeprom->load(module); !loaded) return loaded;
   }
@@ -241,12 +256,18 @@ Result<void> run_sim(const Context& context, const SimOptions& options) {
     if (!error) simulation->stop();
   });
   introduce(context, description, *endpoints);
+  bench.start(module, [&simulation] { simulation->stop(); });
   simulation->start();
   std::optional<LiveDisplay> display;
   if (!options.quiet) display.emplace(events, *simulation, module);
   simulation->run();
-  if (!eeprom || !outcome) return outcome;
-  return eeprom->finish(module);
+  display.reset();
+  Result<void> finished = bench.finish(module);
+  if (!outcome) return outcome;
+  if (eeprom) {
+    if (Result<void> saved = eeprom->finish(module); !saved) return saved;
+  }
+  return finished;
 }
 
 }  // namespace
@@ -257,7 +278,7 @@ void add_sim(CLI::App& app, Context& context) {
   command->footer(
       "Examples:\n  tmcl sim\n  tmcl sim tmcm1110 --program my.tmc --eeprom my.eeprom\n"
       "  tmcl sim --speed max --duration 10min --program my.tmc");
-  command->add_option("MODULE", options->module, "pd1161 or tmcm1110")->capture_default_str();
+  CLI::Option* module = command->add_option("MODULE", options->module, "pd1161 or tmcm1110")->capture_default_str();
   command->add_option("--pty-link", options->endpoints.link,
                       "where to make a link to the serial port; default: tmcl-MODULE in $XDG_RUNTIME_DIR or /tmp");
   command->add_option(
@@ -277,11 +298,22 @@ void add_sim(CLI::App& app, Context& context) {
   command->add_option("--duration", options->duration, "end after this much of the module's time: 5s, 500ms, 2min");
   command->add_option("--eeprom", options->eeprom, "keep the EEPROM in this file; made if it does not exist");
   command->add_option("--program", options->program, "load this TMCL program and start it");
+  CLI::Option* machine =
+      command
+          ->add_option("--machine", options->machine,
+                       "what the motor turns: a linear stage of 100 mm with its switches, or a free shaft without end")
+          ->check(CLI::IsMember({"stage", "free"}))
+          ->capture_default_str();
   command
-      ->add_option("--machine", options->machine,
-                   "what the motor turns: a linear stage of 100 mm with its switches, or a free shaft without end")
-      ->check(CLI::IsMember({"stage", "free"}))
-      ->capture_default_str();
+      ->add_option("--scenario", options->bench.scenario,
+                   "module, machine and what happens to them, from this file; the other options go before it")
+      ->excludes(module)
+      ->excludes(machine);
+  command->add_option("--record", options->bench.record, "write down signals: a file that ends in .vcd or .csv");
+  command->add_option("--signals", options->bench.signals, "names of them, with commas: position,stage")
+      ->delimiter(',');
+  command->add_option("--record-every", options->bench.record_every,
+                      "how often signals are looked at that are not in the trace; default: 1ms");
   command->add_flag("--no-start", options->no_start, "do not start the program");
   command->add_flag("-q,--quiet", options->quiet, "no live line");
   command->callback([&context, options] { context.finish(run_sim(context, *options)); });

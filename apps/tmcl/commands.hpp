@@ -10,6 +10,7 @@ namespace opentmcl::app {
 struct Context;
 
 void add_sim(CLI::App& app, Context& context);
+void add_scenario(CLI::App& app, Context& context);
 void add_asm(CLI::App& app, Context& context);
 void add_dis(CLI::App& app, Context& context);
 void add_run(CLI::App& app, Context& context);

@@ -24,7 +24,7 @@ constexpr const char* footer = R"(Examples:
 Ports: a path such as /dev/ttyACM0, tcp://HOST:PORT, or sim:pd1161 and sim:tmcm1110 for a virtual module inside the
 program, fresh from the factory each time.
 
-Exit codes: 0 done, 1 the module said no, 64 wrong usage, 65 bad source or file, 69 no such device, 70 internal error,
+Exit codes: 0 done, 1 the module said no or a scenario's expectation failed, 64 wrong usage, 65 bad source or file, 69 no such device, 70 internal error,
 74 input/output error, 75 timeout, 76 protocol error, 130 interrupted.)";
 
 int run(int argument_count, char** arguments) {
@@ -45,6 +45,7 @@ int run(int argument_count, char** arguments) {
   app.add_flag("--json", context.json, "print data as JSON");
 
   add_sim(app, context);
+  add_scenario(app, context);
   add_asm(app, context);
   add_dis(app, context);
   add_run(app, context);
