@@ -4,9 +4,13 @@ namespace opentmcl::scenario {
 
 VirtualModule::Options Scenario::board() const {
   VirtualModule::Options options;
-  options.stage.reset();
-  if (machine.kind == MachineDescription::Kind::stage) options.stage = machine.stage;
+  options.machine = machine;
+  options.encoder = encoder;
   return options;
+}
+
+twin::World::Mounted Scenario::mounted() const {
+  return {.machine = machine, .encoder = twin::ShaftEncoder(encoder)};
 }
 
 }  // namespace opentmcl::scenario

@@ -73,18 +73,13 @@ struct Recording {
   Microseconds before = 0;
 };
 
-struct MachineDescription {
-  enum class Kind : std::uint8_t { stage, free };
-  Kind kind = Kind::stage;
-  twin::LinearStageDimensions stage;
-};
-
 struct Scenario {
   const ModuleDescription* module = &pd1161;
   std::string description;
   std::string program;  ///< path; empty: none
   Microseconds duration = 0;
-  MachineDescription machine;
+  twin::MachineDimensions machine = twin::LinearStageDimensions{};
+  twin::EncoderProperties encoder;  ///< its kind is that of the module
   std::vector<Assignment> initial;
   Recording recording;
   std::vector<Event> events;
@@ -92,7 +87,8 @@ struct Scenario {
 
   /// Of a virtual module with this machine.
   VirtualModule::Options board() const;
-  twin::World::Machine world_machine() const { return {board().stage}; }
+  /// Of a world with it.
+  twin::World::Mounted mounted() const;
 };
 
 }  // namespace opentmcl::scenario

@@ -21,9 +21,17 @@ class Reader {
  public:
   ScenarioFile read(const toml::table& file) {
     Scenario scenario;
-    read_section(file, root_keys(), scenario, "the scenario", true);
+    std::vector<std::string_view> section_names;
+    for (const SectionName& known : sections()) section_names.push_back(known.name);
+    read_section(file, root_keys(), scenario, "the scenario", section_names);
     // What follows depends on the module and the machine.
     if (const toml::table* const table = section(file, machine_section)) read_machine(*table, scenario.machine);
+    if (const toml::table* const table = section(file, encoder_section)) {
+      const std::size_t problems_before = problems_.size();
+      read_section(*table, encoder_keys(), scenario.encoder, "[encoder]");
+      check(*table, scenario.encoder);
+      if (problems_.size() != problems_before) scenario.encoder = {};
+    }
     values_.set_bench(scenario);
 
     if (const toml::table* const table = section(file, initial_section)) scenario.initial = values_.assignments(*table);
@@ -77,17 +85,20 @@ class Reader {
     return tables;
   }
 
+  /// @param elsewhere names that may stand there too, but are read by somebody else
   template <class Target>
   void read_section(const toml::table& table, std::span<const Key<Target>> keys, Target& target, std::string_view name,
-                    bool has_sections = false) {
+                    const std::vector<std::string_view>& elsewhere = {}) {
     for (const auto& [key, node] : table) {
       const std::string_view word = key.str();
-      const auto is_section = [word](const SectionName& section) { return section.name == word; };
-      if (has_sections && std::any_of(sections().begin(), sections().end(), is_section)) continue;
+      if (std::find(elsewhere.begin(), elsewhere.end(), word) != elsewhere.end()) continue;
       const auto found =
           std::find_if(keys.begin(), keys.end(), [word](const Key<Target>& row) { return row.name == word; });
       if (found == keys.end()) {
-        complain(place_of(key.source()), unknown_key(word, keys, name, has_sections));
+        std::vector<std::string_view> known = elsewhere;
+        for (const Key<Target>& row : keys) known.push_back(row.name);
+        complain(place_of(key.source()),
+                 std::string(name) + " has no " + lang::in_quotes(word) + ": " + nearest(word, known));
       } else if (std::optional<Value> value =
                      values_.read(node, found->type, {found->unit, found->lowest, found->highest, found->choices})) {
         found->store(target, std::move(*value));
@@ -95,43 +106,43 @@ class Reader {
     }
     for (const Key<Target>& key : keys) {
       if (key.required && !table.contains(key.name)) {
-        complain(has_sections ? Place{1, 1} : place_of(table),
+        complain(place_of(table),
                  std::string(name) + " lacks " + std::string(key.name) + ": " + std::string(key.description));
       }
     }
   }
 
-  template <class Target>
-  static std::string unknown_key(std::string_view word, std::span<const Key<Target>> keys, std::string_view name,
-                                 bool has_sections) {
+  static std::string nearest(std::string_view word, const std::vector<std::string_view>& known) {
     lang::Suggestion suggestion(word);
-    for (const Key<Target>& key : keys) suggestion.consider(key.name);
-    if (has_sections) {
-      for (const SectionName& section : sections()) suggestion.consider(section.name);
-    }
+    for (const std::string_view name : known) suggestion.consider(name);
     const std::string hint = suggestion.text();
-    std::vector<std::string_view> known;
-    for (const Key<Target>& key : keys) known.push_back(key.name);
-    return std::string(name) + " has no " + lang::in_quotes(word) + ": " +
-           (hint.empty() ? "expected " + listed(known) : hint);
+    return hint.empty() ? "expected " + listed(known) : hint;
   }
 
   // ---- What fits together
 
-  void read_machine(const toml::table& table, MachineDescription& machine) {
+  void read_machine(const toml::table& table, twin::MachineDimensions& machine) {
     const std::size_t problems_before = problems_.size();
-    read_section(table, machine_keys(), machine, "[machine]");
-    if (problems_.size() != problems_before) {
-      machine = {};
-      return;
+    std::vector<std::string_view> kinds;
+    for_each_machine_kind([&kinds](const MachineKind& kind, auto, auto) { kinds.push_back(kind.name); });
+    std::string_view wanted = kinds.front();
+    std::optional<Value> given;
+    if (const toml::node* const node = table.get(machine_kind_key)) {
+      given = values_.read(*node, ValueType::choice, {.choices = kinds});
+      if (!given) return;
+      wanted = given->text;
     }
-    if (machine.kind == MachineDescription::Kind::free && table.size() > 1) {
-      complain(place_of(table), "a free shaft has no dimensions: expected kind alone");
-    }
-    const twin::LinearStageDimensions& stage = machine.stage;
-    const auto lies_on_stage = [&](std::int32_t place) { return 2 * std::abs(place) <= stage.travel; };
+    for_each_machine_kind([&](const MachineKind& kind, auto keys, auto dimensions) {
+      if (kind.name != wanted) return;
+      read_section(table, keys, dimensions, "[machine] of kind " + std::string(kind.name), {machine_kind_key});
+      check(table, dimensions);
+      if (problems_.size() == problems_before) machine = dimensions;
+    });
+  }
+
+  void check(const toml::table& table, const twin::LinearStageDimensions& stage) {
     const auto check_place = [&](std::string_view key, std::int32_t place) {
-      if (lies_on_stage(place)) return;
+      if (2 * std::abs(place) <= stage.travel) return;
       const toml::node* const node = table.get(key);
       complain(place_of(node == nullptr ? table : *node), std::string(key) + " lies beyond a hard end: the travel is " +
                                                               twin::text_of(stage.travel / 1000.0) +
@@ -139,7 +150,23 @@ class Reader {
     };
     check_place("start", stage.start);
     check_place("home_switch_center", stage.home_switch_center);
-    if (problems_.size() != problems_before) machine = {};
+  }
+
+  // These two can be anything within the ranges of their keys.
+  static void check(const toml::table&, const twin::CircularAxisDimensions&) {}
+  static void check(const toml::table&, const twin::RotaryAxisDimensions&) {}
+
+  void check(const toml::table& table, const twin::EncoderProperties& encoder) {
+    constexpr std::int32_t counts_a_line = 4;
+    const auto check_count = [&](std::string_view key, std::int32_t count) {
+      if (count < encoder.lines * counts_a_line) return;
+      const toml::node* const node = table.get(key);
+      complain(place_of(node == nullptr ? table : *node), std::string(key) + " must be less than a turn, which has " +
+                                                              std::to_string(encoder.lines * counts_a_line) +
+                                                              " counts");
+    };
+    check_count("null_position", encoder.null_position);
+    check_count("null_width", encoder.null_width);
   }
 
   void check(const toml::table& table, const Recording& recording) {

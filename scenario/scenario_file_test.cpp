@@ -34,6 +34,10 @@ TEST(ScenarioFile, SaysWhatThereIsAndWhatHappens) {
     start = -40
     mirrored = true
     contact = "normally open"
+    switch_bounce = "2.5 ms"
+
+    [encoder]
+    lines = 500
 
     [initial]
     supply_voltage = "12 V"
@@ -73,10 +77,13 @@ TEST(ScenarioFile, SaysWhatThereIsAndWhatHappens) {
   EXPECT_EQ(scenario.module, &tmcm1110);
   EXPECT_EQ(scenario.program, "go.tmc");
   EXPECT_EQ(scenario.duration, 120'000'000u);
-  EXPECT_EQ(scenario.machine.stage.pitch, 5'000);
-  EXPECT_EQ(scenario.machine.stage.start, -40'000);
-  EXPECT_TRUE(scenario.machine.stage.mirrored);
-  EXPECT_EQ(scenario.machine.stage.contact, twin::LinearStageDimensions::Contact::normally_open);
+  const auto& stage = std::get<twin::LinearStageDimensions>(scenario.machine);
+  EXPECT_EQ(stage.pitch, 5'000);
+  EXPECT_EQ(stage.start, -40'000);
+  EXPECT_TRUE(stage.mirrored);
+  EXPECT_EQ(stage.contact, twin::Contact::normally_open);
+  EXPECT_EQ(stage.switch_bounce, 2'500);
+  EXPECT_EQ(scenario.encoder.lines, 500);
   ASSERT_EQ(scenario.initial.size(), 2u);
   EXPECT_EQ(scenario.initial[0].quantity->name, "supply_voltage");
   EXPECT_EQ(scenario.initial[0].value, 12);
@@ -100,7 +107,7 @@ TEST(ScenarioFile, SaysWhatThereIsAndWhatHappens) {
   EXPECT_EQ(second.send.at(0).command, (Command{1, 0, 0, 500}));
   EXPECT_EQ(second.note, "there");
   ASSERT_EQ(scenario.expectations.size(), 2u);
-  EXPECT_EQ(scenario.expectations[0].place.line, 38u);
+  EXPECT_EQ(scenario.expectations[0].place.line, 42u);
   EXPECT_EQ(scenario.expectations[1].is, -5);
 }
 
@@ -126,7 +133,7 @@ that = "stage < 3 V"
             R"(f.toml:1:1: the scenario lacks duration: The run is over after this much simulated time.
 f.toml:1:10: expected tmcm1110 or pd1161, found 'pd1116'; did you mean pd1161?
 f.toml:2:1: the scenario has no 'durration': did you mean duration?
-f.toml:4:1: [machine] has no 'pitsh': did you mean pitch?
+f.toml:4:1: [machine] of kind stage has no 'pitsh': did you mean pitch?
 f.toml:5:13: 'm3' is not the unit of a length: expected a length such as 1.5 mm; did you mean mm?
 f.toml:8:9: there is no quantity 'suply_voltage': did you mean supply_voltage?
 f.toml:10:26: there is no quantity 'stge': did you mean stage?
@@ -162,7 +169,10 @@ TEST(ScenarioFile, KnowsWhatBelongsTogether) {
   EXPECT_EQ(problems_in("[[expect]]\nby = \"1 s\"\nanswer_to = \"GAP 1, 0\""),
             "f:4:13: answer_to means nothing without at: expected both or none\n");
   EXPECT_EQ(problems_in("[machine]\nkind = \"free\"\npitch = 3"),
-            "f:2:1: a free shaft has no dimensions: expected kind alone\n");
+            "f:4:1: [machine] of kind free has no 'pitch': expected kind, inertia or friction\n");
+  EXPECT_EQ(problems_in("[encoder]\nlines = 100\nnull_position = 400"),
+            "f:4:17: null_position must be less than a turn, which has 400 counts\n");
+  EXPECT_EQ(problems_in("[machine]\nkind = \"circle\""), "f:3:8: expected stage, circular or free, found 'circle'\n");
   EXPECT_EQ(problems_in("[machine]\nstart = \"60 mm\""),
             "f:3:9: start lies beyond a hard end: the travel is 100 mm, half of it on either side of 0\n");
   EXPECT_EQ(problems_in("event = 5"), "f:2:9: there can be several of these: expected [[event]]\n");
@@ -177,6 +187,28 @@ TEST(ScenarioFile, KnowsWhatTheMachineHas) {
             "f:4:24: there is no signal 'stpe': did you mean step?\n");
   EXPECT_EQ(problems_in("[record]\nfile = \"x.wav\"\nsignals = []"),
             "f:3:8: expected a name that ends in .vcd or .csv, found 'x.wav'\n");
+}
+
+TEST(ScenarioFile, KnowsTheDimensionsOfEveryMachine) {
+  const Scenario table = scenario_in(R"(
+    duration = "1 s"
+    [machine]
+    kind = "circular"
+    gear_numerator = 40
+    home_mark_center = "-90 deg"
+    backlash = "0.2 deg"
+    friction = "80 mNm"
+    [[expect]]
+    at = "1 s"
+    that = "table = 0 deg"
+  )");
+  const auto& circular = std::get<twin::CircularAxisDimensions>(table.machine);
+  EXPECT_EQ(circular.gear_numerator, 40);
+  EXPECT_EQ(circular.home_mark_center, -90'000);
+  EXPECT_EQ(circular.backlash, 200);
+  EXPECT_EQ(circular.friction, 0.08);
+  const Scenario shaft = scenario_in("duration = '1 s'\n[machine]\nkind = 'free'\ninertia = '68 g cm2'");
+  EXPECT_EQ(std::get<twin::RotaryAxisDimensions>(shaft.machine).inertia, 68e-7);
 }
 
 TEST(ScenarioFile, KnowsWhatTheModuleCan) {

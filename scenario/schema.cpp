@@ -80,6 +80,8 @@ Json value_schema(const Key<Target>& key) {
       return reference("time");
     case ValueType::number:
       return number_schema(key.unit, key.lowest, key.highest);
+    case ValueType::whole:
+      return {{"type", "integer"}, {"minimum", key.lowest}, {"maximum", key.highest}};
     case ValueType::condition:
       return reference("condition");
     case ValueType::assignments:
@@ -106,8 +108,22 @@ Json section_schema(std::span<const Key<Target>> keys) {
   return schema;
 }
 
+/// One of the kinds, each with its keys; without `kind` it is the first.
+Json machine_schema() {
+  Json kinds = Json::array();
+  for_each_machine_kind([&kinds](const MachineKind& kind, auto keys, const auto&) {
+    Json schema = section_schema(keys);
+    schema["description"] = kind.description;
+    schema["properties"][std::string(machine_kind_key)] = {{"const", kind.name}};
+    if (!kinds.empty()) schema["required"].push_back(machine_kind_key);
+    kinds.push_back(std::move(schema));
+  });
+  return {{"anyOf", std::move(kinds)}};
+}
+
 Json schema_of_section(std::string_view name) {
-  if (name == machine_section) return section_schema(machine_keys());
+  if (name == machine_section) return machine_schema();
+  if (name == encoder_section) return section_schema(encoder_keys());
   if (name == record_section) return section_schema(record_keys());
   if (name == event_section) return section_schema(event_keys());
   if (name == expect_section) return section_schema(expect_keys());

@@ -1,15 +1,13 @@
 #include "scenario/section.hpp"
 
-#include <cmath>
 #include <utility>
 
 namespace opentmcl::scenario {
 namespace {
 
-constexpr double micrometres_in_a_millimetre = 1000;
-
 constexpr SectionName section_names[] = {
     {machine_section, "What the motor turns.", false},
+    {encoder_section, "The encoder on its shaft.", false},
     {initial_section, "Quantities as they are before the module gets its supply.", false},
     {record_section, "What is written down.", false},
     {event_section, "Something that happens at a time or under a condition.", true},
@@ -17,8 +15,6 @@ constexpr SectionName section_names[] = {
 };
 
 constexpr std::string_view module_names[] = {tmcm1110.argument, pd1161.argument};
-constexpr std::string_view machine_kinds[] = {"stage", "free"};
-constexpr std::string_view contact_kinds[] = {"normally closed", "normally open"};
 
 constexpr Key<Scenario> root[] = {
     {"module",
@@ -38,55 +34,6 @@ constexpr Key<Scenario> root[] = {
      .description = "The run is over after this much simulated time.",
      .store = [](Scenario& scenario, Value&& value) { scenario.duration = value.time; },
      .required = true},
-};
-
-/// A length of the stage that is given in mm.
-template <std::int32_t twin::LinearStageDimensions::*member>
-constexpr Key<MachineDescription> length(std::string_view name, double lowest, double highest,
-                                         std::string_view description) {
-  return {name,
-          ValueType::number,
-          description,
-          [](MachineDescription& machine, Value&& value) {
-            machine.stage.*member = static_cast<std::int32_t>(std::lround(value.number * micrometres_in_a_millimetre));
-          },
-          "mm",
-          lowest,
-          highest};
-}
-
-using Stage = twin::LinearStageDimensions;
-
-constexpr Key<MachineDescription> machine[] = {
-    {.name = "kind",
-     .type = ValueType::choice,
-     .description = "A linear stage with its switches, or a free shaft without end.",
-     .store =
-         [](MachineDescription& target, Value&& value) {
-           target.kind = value.text == "free" ? MachineDescription::Kind::free : MachineDescription::Kind::stage;
-         },
-     .choices = machine_kinds},
-    length<&Stage::pitch>("pitch", 0.1, 100, "Way of the slider in a turn of the shaft."),
-    length<&Stage::travel>("travel", 1, 10'000, "From one hard end to the other."),
-    length<&Stage::start>("start", -5'000, 5'000, "Where the slider stands in the beginning, from the middle."),
-    {.name = "mirrored",
-     .type = ValueType::truth,
-     .description = "The motor sits at the other end: positive angles move the slider to the left.",
-     .store = [](MachineDescription& target, Value&& value) { target.stage.mirrored = value.truth; }},
-    length<&Stage::limit_switch_distance>("limit_switch_distance", 0, 5'000,
-                                          "From a hard end to where the switch closest to it begins."),
-    length<&Stage::limit_switch_width>("limit_switch_width", 0, 5'000, "Way on which the slider holds a limit switch."),
-    length<&Stage::home_switch_center>("home_switch_center", -5'000, 5'000, "Middle of the home switch."),
-    length<&Stage::home_switch_width>("home_switch_width", 0, 5'000, "Way on which the slider holds the home switch."),
-    {.name = "contact",
-     .type = ValueType::choice,
-     .description = "Kind of the three switches.",
-     .store =
-         [](MachineDescription& target, Value&& value) {
-           target.stage.contact =
-               value.text == contact_kinds[1] ? Stage::Contact::normally_open : Stage::Contact::normally_closed;
-         },
-     .choices = contact_kinds},
 };
 
 constexpr Key<Recording> record[] = {
@@ -149,7 +96,7 @@ constexpr Key<Expectation> expect[] = {
      "With `at`: a TMCL command, such as GAP 207, 0, whose answer must have the value `is`.",
      [](Expectation& target, Value&& value) { target.answer_to = std::move(value.commands.front()); }},
     {"is",
-     ValueType::number,
+     ValueType::whole,
      "The value of that answer; 0 if not given.",
      [](Expectation& target, Value&& value) { target.is = static_cast<std::int32_t>(value.number); },
      {},
@@ -165,10 +112,6 @@ std::span<const SectionName> sections() {
 
 std::span<const Key<Scenario>> root_keys() {
   return root;
-}
-
-std::span<const Key<MachineDescription>> machine_keys() {
-  return machine;
 }
 
 std::span<const Key<Recording>> record_keys() {

@@ -19,6 +19,7 @@ enum class ValueType : std::uint8_t {
   truth,        ///< truth
   time,         ///< time
   number,       ///< number, in Key::unit
+  whole,        ///< the same, without a fraction
   condition,    ///< condition
   assignments,  ///< assignments: a table of quantities
   command,      ///< commands: exactly one
@@ -52,6 +53,7 @@ struct Key {
 
 /// Section names as they are written in the file.
 inline constexpr std::string_view machine_section = "machine";
+inline constexpr std::string_view encoder_section = "encoder";
 inline constexpr std::string_view initial_section = "initial";
 inline constexpr std::string_view record_section = "record";
 inline constexpr std::string_view event_section = "event";
@@ -66,9 +68,34 @@ struct SectionName {
 std::span<const SectionName> sections();
 
 std::span<const Key<Scenario>> root_keys();
-std::span<const Key<MachineDescription>> machine_keys();
+std::span<const Key<twin::EncoderProperties>> encoder_keys();
 std::span<const Key<Recording>> record_keys();
 std::span<const Key<Event>> event_keys();
 std::span<const Key<Expectation>> expect_keys();
+
+// ---- The machine: its kind says which keys there are
+
+inline constexpr std::string_view machine_kind_key = "kind";
+
+struct MachineKind {
+  std::string_view name;
+  std::string_view description;
+};
+
+std::span<const Key<twin::LinearStageDimensions>> linear_stage_keys();
+std::span<const Key<twin::CircularAxisDimensions>> circular_axis_keys();
+std::span<const Key<twin::RotaryAxisDimensions>> rotary_axis_keys();
+
+/// Calls `visitor(kind, keys, dimensions)` for each, with the dimensions when nothing is said of them; the first one is
+/// the kind when nothing is said of that.
+template <class Visitor>
+void for_each_machine_kind(Visitor&& visitor) {
+  visitor(MachineKind{"stage", "A slider on a screw, with its switches."}, linear_stage_keys(),
+          twin::LinearStageDimensions{});
+  visitor(MachineKind{"circular", "A table behind a gear, with a home mark."}, circular_axis_keys(),
+          twin::CircularAxisDimensions{});
+  visitor(MachineKind{"free", "A shaft without end and without switches."}, rotary_axis_keys(),
+          twin::RotaryAxisDimensions{});
+}
 
 }  // namespace opentmcl::scenario

@@ -28,7 +28,7 @@ ValueReader::ValueReader(ProblemList& problems) : problems_(problems), module_(n
 
 void ValueReader::set_bench(const Scenario& scenario) {
   module_ = scenario.module;
-  world_.emplace(nullptr, scenario.world_machine());
+  world_.emplace(nullptr, scenario.mounted());
 }
 
 void ValueReader::complain_of_kind(const toml::node& node, std::string_view expected) {
@@ -51,6 +51,8 @@ std::optional<Value> ValueReader::read(const toml::node& node, ValueType type, c
       return time(node);
     case ValueType::number:
       return number(node, allowed.unit, allowed.lowest, allowed.highest);
+    case ValueType::whole:
+      return whole(node, allowed);
     case ValueType::condition:
       return condition(node);
     case ValueType::assignments:
@@ -121,6 +123,13 @@ std::optional<Value> ValueReader::number(const toml::node& node, std::string_vie
   if (*value >= lowest && *value <= highest) return Value{.number = *value};
   complain(place_of(node), "expected " + twin::text_of(lowest) + " to " + twin::text_of(highest) +
                                (unit.empty() ? "" : ' ' + std::string(unit)) + ", found " + twin::text_of(*value));
+  return std::nullopt;
+}
+
+std::optional<Value> ValueReader::whole(const toml::node& node, const AllowedValues& allowed) {
+  std::optional<Value> value = number(node, allowed.unit, allowed.lowest, allowed.highest);
+  if (!value || value->number == std::trunc(value->number)) return value;
+  complain(place_of(node), "expected a whole number, found " + twin::text_of(value->number));
   return std::nullopt;
 }
 

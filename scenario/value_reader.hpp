@@ -46,6 +46,7 @@ class ValueReader {
   /// A number as it is, or one with a unit in a text.
   std::optional<double> any_number(const toml::node& node, std::string_view unit);
   std::optional<Value> number(const toml::node& node, std::string_view unit, double lowest, double highest);
+  std::optional<Value> whole(const toml::node& node, const AllowedValues& allowed);
   /// A plain number would be seconds; it is refused, since half of the readers would think of ms.
   std::optional<Value> time(const toml::node& node);
   std::optional<Value> condition(const toml::node& node);

@@ -187,7 +187,7 @@ Result<void> run_sim(const Context& context, const SimOptions& options) {
     const Result<const ModuleDescription*> found = named_module(options.module);
     if (!found) return found.error();
     scenario.module = *found;
-    if (options.machine == "free") scenario.machine.kind = scenario::MachineDescription::Kind::free;
+    if (options.machine == "free") scenario.machine = twin::RotaryAxisDimensions{};
   }
   const ModuleDescription& description = *scenario.module;
   const Result<double> speed = parse_speed(options.speed);
