@@ -70,7 +70,7 @@ RULES = (
         "scenario",
         (
             "boards/twin",
-            "twin/world",
+            "twin",
             "lang",
             "firmware/hal",
             "firmware/spec",
