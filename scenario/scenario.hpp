@@ -76,8 +76,8 @@ struct Recording {
 struct Scenario {
   const ModuleDescription* module = &pd1161;
   std::string description;
-  std::string program;  ///< path; empty: none
-  Microseconds duration = 0;
+  std::string program;        ///< path; empty: none
+  Microseconds duration = 0;  ///< 0: no end
   twin::MachineDimensions machine = twin::LinearStageDimensions{};
   twin::EncoderProperties encoder;  ///< its kind is that of the module
   std::vector<Assignment> initial;

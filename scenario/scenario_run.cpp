@@ -34,7 +34,10 @@ void ScenarioRun::prepare(const Scenario& scenario, twin::World& world) {
 }
 
 ScenarioRun::ScenarioRun(const Scenario& scenario, const VirtualModule& module, Listener listener)
-    : begin_(module.now()), listener_(std::move(listener)), next_look_(begin_) {
+    : begin_(module.now()),
+      listener_(std::move(listener)),
+      next_look_(begin_),
+      end_(scenario.duration == 0 ? never : begin_ + scenario.duration) {
   for (const Event& event : scenario.events) {
     if (event.at) timed_.push_back({&event, begin_ + *event.at});
     if (event.when) waiting_.push_back({&event});
@@ -53,7 +56,7 @@ bool ScenarioRun::looks_regularly() const {
 
 Microseconds ScenarioRun::next_act() const {
   if (ended_) return never;
-  Microseconds next = looks_regularly() ? next_look_ : never;
+  Microseconds next = looks_regularly() ? std::min(next_look_, end_) : end_;
   for (const TimedEvent& timed : timed_) next = std::min(next, timed.next);
   for (const PulseEnd& pulse : pulses_) next = std::min(next, pulse.time);
   for (const OpenExpectation& open : expectations_) {
@@ -80,7 +83,8 @@ void ScenarioRun::act(VirtualModule& module) {
   for (OpenExpectation& open : expectations_) {
     if (open.is_open && (open.due <= now || (is_look && open.expectation->by))) check(open, module, now);
   }
-  if (ended_) report(Report::Kind::end, end_, now, "the end");
+  if (now >= end_) ended_ = true;
+  if (ended_) report(Report::Kind::end, end_place_, now, "the end");
 }
 
 /// Pulses end and ramps move.
@@ -125,8 +129,7 @@ void ScenarioRun::happen(const Event& event, VirtualModule& module, Microseconds
   if (!event.send.empty()) send_pending(module);
   if (event.end) {
     ended_ = true;
-    ended_early_ = true;
-    end_ = event.place;
+    end_place_ = event.place;
   }
 }
 

@@ -19,7 +19,7 @@ struct Report {
     note,    ///< of an event
     met,     ///< an expectation
     failed,  ///< an expectation, or a command that the module refused
-    end,     ///< of the run, by an event; called once, after all else that happens at that time
+    end,     ///< of the run: by an event or when its duration is over; once, after all else that happens at that time
   };
 
   Kind kind;
@@ -47,8 +47,7 @@ class ScenarioRun final : public BenchActor {
   Microseconds next_act() const override;
   void act(VirtualModule& module) override;
 
-  /// An event has ended the run, before finish().
-  bool has_ended_early() const { return ended_early_; }
+  bool has_ended() const { return ended_; }
   /// No more time will pass: expectations that are still open fail, and nothing happens any more.
   void finish(const VirtualModule& module);
   std::size_t failures() const { return failures_; }
@@ -103,8 +102,8 @@ class ScenarioRun final : public BenchActor {
   std::deque<PendingCommand> commands_;
   Microseconds next_look_;
   std::size_t failures_ = 0;
-  Place end_;
-  bool ended_early_ = false;
+  Microseconds end_;  ///< `never` without a duration
+  Place end_place_;
   bool ended_ = false;
 };
 

@@ -112,28 +112,28 @@ Result<void> BenchSession::prepare_recording() {
 }
 
 void BenchSession::start(VirtualModule& module, std::function<void()> ended) {
-  if (has_scenario()) {
-    run_.emplace(scenario_, module, [this, &module, ended = std::move(ended)](const Report& what) {
-      report(what);
-      if (what.kind != Report::Kind::end) return;
-      if (recorder_) recorder_->finish(module);
-      ended();
-    });
-    module.add_actor(*run_);
-  }
+  run_.emplace(scenario_, module, [this, &module, ended = std::move(ended)](const Report& what) {
+    if (has_scenario()) report(what);
+    if (what.kind != Report::Kind::end) return;
+    // Exactly here: the simulation stops a little later, nobody knows when.
+    if (recorder_) recorder_->finish(module);
+    recording_ended_ = true;
+    ended();
+  });
+  module.add_actor(*run_);
   if (!recorder_) return;
   recorder_->start(module);
   module.add_actor(*recorder_);
 }
 
 Result<void> BenchSession::finish(VirtualModule& module) {
-  if (run_) run_->finish(module);
+  run_->finish(module);
   if (recorder_) {
-    if (!run_ || !run_->has_ended_early()) recorder_->finish(module);
+    if (!recording_ended_) recorder_->finish(module);
     errno = 0;
     if (std::fflush(file_.get()) != 0 || std::ferror(file_.get()) != 0) return cannot_write(scenario_.recording.file);
   }
-  if (!run_ || run_->failures() == 0) return {};
+  if (run_->failures() == 0) return {};
   const std::size_t count = run_->failures();
   return Error{ErrorKind::refused,
                fmt::format("{}: {} expectation{} failed", options_.scenario, count, count == 1 ? "" : "s"),

@@ -43,7 +43,7 @@ class BenchSession {
   twin::TraceObserver* observer() { return recorder_ ? &*recorder_ : nullptr; }
   /// Before the module gets its supply.
   void prepare(VirtualModule& module) { scenario::ScenarioRun::prepare(scenario_, module.world()); }
-  /// The run begins now. @param ended called when an event ends it
+  /// The run begins now. @param ended called when it has come to its end
   void start(VirtualModule& module, std::function<void()> ended);
   /// The run is over. Errors: refused for failed expectations, input_output.
   client::Result<void> finish(VirtualModule& module);
@@ -62,6 +62,7 @@ class BenchSession {
   std::unique_ptr<std::FILE, CloseFile> file_;
   std::optional<scenario::Recorder> recorder_;
   std::optional<scenario::ScenarioRun> run_;
+  bool recording_ended_ = false;
 };
 
 }  // namespace opentmcl::app

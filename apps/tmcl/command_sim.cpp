@@ -198,7 +198,8 @@ Result<void> run_sim(const Context& context, const SimOptions& options) {
     if (!duration) return duration.error();
     pace.duration = *duration;
   }
-  if (bench.has_scenario() && !pace.duration) pace.duration = scenario.duration;
+  if (pace.duration) scenario.duration = *pace.duration;
+  if (scenario.duration != 0) pace.duration = scenario.duration;
   std::vector<Command> commands;
   const std::string& program = options.program.empty() ? scenario.program : options.program;
   if (!program.empty()) {

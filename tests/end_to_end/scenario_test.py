@@ -96,6 +96,14 @@ class Recordings(ScenarioTest):
         self.assertEqual(self.read("1.vcd"), self.read("max.vcd"))
         self.assertEqual(self.read("20.vcd"), self.read("max.vcd"))
 
+    def test_are_the_same_when_somebody_looks(self):
+        """The live line asks the firmware, and so causes datagrams, but nothing else."""
+        for name, options in (("live", ("--speed", "3")), ("unseen", ("--speed", "max", "--quiet"))):
+            done = self.tmcl("sim", *options, "--scenario", self.write("s.toml", MOVE), "--tcp", "none", "--pty-link",
+                             self.path("link"), "--record", self.path(name + ".vcd"))
+            self.assertEqual(0, done.returncode, done.stderr)
+        self.assertEqual(self.read("live.vcd"), self.read("unseen.vcd"))
+
     def test_need_no_scenario(self):
         program = self.write("p.tmc", "MVP ABS, 0, 1000\nWAIT POS, 0, 0\nSTOP\n")
         self.sim(0, "--speed", "max", "--duration", "300ms", "--program", program, "--record", self.path("r.csv"),
