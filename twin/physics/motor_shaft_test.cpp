@@ -264,6 +264,23 @@ TEST(MotorShaft, KeepsTheLeadOfASettledMotionBeyondTheVoltageLimit) {
   EXPECT_NEAR(fast.lead() * degrees_per_turn, full.lead() * degrees_per_turn, 2);
 }
 
+// What was measured under other conditions does not come back with them: the rotor has moved on since.
+TEST(MotorShaft, DoesNotJumpWhenTheSupplyComesBack) {
+  Bench bench;
+  bench.set_torque(0.05);
+  bench.accelerate_to(1144, 0.5);
+  bench.run(1);
+  ASSERT_EQ(bench.shaft.regime(), Regime::locked);
+  for (const double supply : {60.0, 24.0}) {
+    const MotorShaft::State before = bench.shaft.state();
+    bench.shaft.set_supply(supply);
+    bench.advance(2);
+    EXPECT_NEAR(bench.shaft.state().angle, before.angle + before.velocity * 2 * seconds_per_tick, 1e-5) << supply;
+    bench.run(0.5);
+    ASSERT_EQ(bench.shaft.regime(), Regime::locked);
+  }
+}
+
 TEST(MotorShaft, AnEndCostsSteps) {
   Bench bench;
   bench.load.highest_angle = 5;

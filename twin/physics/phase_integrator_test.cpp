@@ -194,9 +194,9 @@ RC_GTEST_PROP(PhaseIntegrator, GoesOnWhereItWasCut, ()) {
   bench.field.velocity = *rc::gen::inRange(-200, 200);
   bench.field.acceleration = *rc::gen::inRange(-2000, 2000);
   bench.state.velocity = bench.field.velocity;
-  const Tick begin = *rc::gen::inRange(0, 1000);
-  const Tick cut = (begin / grid + *rc::gen::inRange(1, 40)) * grid;
-  const Tick end = cut + *rc::gen::inRange(1, 40 * static_cast<int>(grid));
+  const auto begin = *rc::gen::inRange<Tick>(0, 1000);
+  const Tick cut = (begin / grid + *rc::gen::inRange<Tick>(1, 40)) * grid;
+  const Tick end = cut + *rc::gen::inRange<Tick>(1, 40 * grid);
   const PhaseState at_once = integrate(bench.conditions(), bench.field, bench.state, begin, end, grid);
   const PhaseState first = integrate(bench.conditions(), bench.field, bench.state, begin, cut, grid);
   Field rest = bench.field;
@@ -214,7 +214,7 @@ RC_GTEST_PROP(PhaseIntegrator, StepsOfTheFieldActWhereverTimeIsCut, ()) {
   std::vector<Field::Step> steps;
   Tick tick = 0;
   for (int i = 1; i <= 20; ++i) {
-    tick += *rc::gen::inRange(100, 5000);
+    tick += *rc::gen::inRange<Tick>(100, 5000);
     steps.push_back({tick, 0.25 * i});
   }
   const Tick end = tick + 1000;
