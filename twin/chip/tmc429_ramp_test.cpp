@@ -206,15 +206,15 @@ class SideBySide {
 }  // namespace
 
 /// What a failed comparison prints.
-void PrintTo(const Tmc429RampState& state, std::ostream* out) {
+std::ostream& operator<<(std::ostream& out, const Tmc429RampState& state) {
   const Tmc429RampSettings& settings = state.settings;
-  *out << "mode " << static_cast<int>(settings.mode) << " dividers " << settings.ramp_divider << ' '
-       << settings.pulse_divider << " A_MAX " << settings.maximum_acceleration << " V_MIN " << settings.minimum_velocity
-       << " V_MAX " << settings.maximum_velocity << " p " << settings.multiplier << ' ' << settings.divisor
-       << " blocked " << state.blocked.decreasing << state.blocked.increasing << state.blocked.soft_stop << " X_TARGET "
-       << settings.target_position << ": X " << state.position << " V " << state.velocity << "/256 A "
-       << state.acceleration << " V_TARGET " << settings.target_velocity << " phase " << state.accumulator << " tick "
-       << state.now;
+  return out << "mode " << static_cast<int>(settings.mode) << " dividers " << settings.ramp_divider << ' '
+             << settings.pulse_divider << " A_MAX " << settings.maximum_acceleration << " V_MIN "
+             << settings.minimum_velocity << " V_MAX " << settings.maximum_velocity << " p " << settings.multiplier
+             << ' ' << settings.divisor << " blocked " << state.blocked.decreasing << state.blocked.increasing
+             << state.blocked.soft_stop << " X_TARGET " << settings.target_position << ": X " << state.position << " V "
+             << state.velocity << "/256 A " << state.acceleration << " V_TARGET " << settings.target_velocity
+             << " phase " << state.accumulator << " tick " << state.now;
 }
 
 namespace {
