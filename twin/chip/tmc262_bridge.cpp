@@ -53,11 +53,6 @@ std::uint64_t Tmc262Bridge::detected_shorts(std::uint64_t clock) const {
   return std::min(detected_shorts_ + cycles, shorts_to_shut_off);
 }
 
-std::optional<std::uint64_t> Tmc262Bridge::shut_off_clock() const {
-  if (!detecting_since_) return std::nullopt;
-  return *detecting_since_ + (shorts_to_shut_off - detected_shorts_) * conditions_.chopper_cycle;
-}
-
 void Tmc262Bridge::note_polarity_changes(std::uint64_t count, bool is_enough, std::uint64_t clock) {
   if (count == 0) return;
   if (!detecting_since_ && detected_shorts_ < shorts_to_shut_off) {

@@ -35,7 +35,10 @@ class Tmc262Bridge {
   /// S2GA or S2GB: the third detected short has shut it off.
   bool shut_off(std::uint64_t clock) const { return detected_shorts(clock) >= shorts_to_shut_off; }
   /// When a short that lasts will shut it off, if it will.
-  std::optional<std::uint64_t> shut_off_clock() const;
+  std::optional<std::uint64_t> shut_off_clock() const {
+    if (!detecting_since_) return std::nullopt;
+    return *detecting_since_ + (shorts_to_shut_off - detected_shorts_) * conditions_.chopper_cycle;
+  }
   /// OLA or OLB.
   bool open_load() const { return open_load_; }
 

@@ -26,8 +26,9 @@ double angle_in_turns(Phasor vector) {
   tangent = tangent / (1 + std::sqrt(1 + tangent * tangent));
   const double square = tangent * tangent;
   // Series of arctan t / t; the first term left out, t^19 / 19, is below 3e-15.
+  constexpr double coefficients[] = {1.0 / 17, 1.0 / 15, 1.0 / 13, 1.0 / 11, 1.0 / 9, 1.0 / 7, 1.0 / 5, 1.0 / 3, 1.0};
   double sum = 0;
-  for (int n = 17; n >= 1; n -= 2) sum = 1.0 / n - square * sum;
+  for (const double coefficient : coefficients) sum = coefficient - square * sum;
   double angle = 4 * tangent * sum / radians_per_turn;
   if (x < y) angle = 0.25 - angle;
   if (vector.along < 0) angle = 0.5 - angle;

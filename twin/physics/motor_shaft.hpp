@@ -149,6 +149,16 @@ class MotorShaft {
 
   mutable TorqueTables::Key table_key_{};  ///< of table_
   mutable std::shared_ptr<const TorqueTable> table_;
+
+  /// A motor that turns evenly asks for the same point again and again.
+  struct RememberedPoint {
+    const TorqueTable* table = nullptr;
+    double speed = 0;
+    double torque = 0;
+    TorqueTable::Point point{};
+  };
+  TorqueTable::Point point_of(const TorqueTable& table, double speed, double torque) const;
+  mutable RememberedPoint remembered_;
 };
 
 }  // namespace opentmcl::twin

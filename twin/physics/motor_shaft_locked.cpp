@@ -79,13 +79,20 @@ double MotorShaft::moving_torque(double angle, double velocity, double accelerat
          shaft_radians * (drag() * velocity + inertia() * acceleration);
 }
 
+TorqueTable::Point MotorShaft::point_of(const TorqueTable& table, double speed, double torque) const {
+  if (remembered_.table != &table || remembered_.speed != speed || remembered_.torque != torque) {
+    remembered_ = {&table, speed, torque, table.at(speed, torque)};
+  }
+  return remembered_.point;
+}
+
 std::optional<MotorShaft::Equilibrium> MotorShaft::moving_equilibrium(double angle, double velocity,
                                                                       double acceleration, const TorqueTable& table,
                                                                       const Limits& limits) const {
   if (std::fabs(velocity) >= TorqueTable::highest_speed) return std::nullopt;
   const double torque = moving_torque(angle, velocity, acceleration);
   const double direction = velocity != 0 ? sign(velocity) : sign(acceleration);
-  const TorqueTable::Point point = table.at(direction < 0 ? -std::fabs(velocity) : std::fabs(velocity), torque);
+  const TorqueTable::Point point = point_of(table, direction < 0 ? -std::fabs(velocity) : std::fabs(velocity), torque);
   if (point.saturated || std::fabs(torque) > limits.torque_share * point.pull_out_torque) return std::nullopt;
   return Equilibrium{point.load_angle, point.stiffness + load_.spring / MotorData::pole_pairs, torque,
                      limits.angle_share * point.pull_out_angle, point.pull_out_torque};

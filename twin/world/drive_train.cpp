@@ -85,15 +85,15 @@ DriveTrain::DriveTrain(ShaftSurroundings& surroundings, Options options)
 void DriveTrain::run(Tick tick) {
   const Tick end = std::min(tick, end_of_span_);
   running_ = true;
-  bool is_new_motion = false;
   if (watches_ramp_) {
-    is_new_motion = tmc429_->advance_until_change(end - now_, driven_motor);
+    tmc429_->advance_until_change(end - now_, driven_motor);
   } else {
     tmc429_->advance(end - now_);
   }
   running_ = false;
   now_ = powered_at_ + tmc429_->clock();
   tmc262_.advance(tmc429_->clock());
+  const bool is_new_motion = watches_ramp_ && tmc429_->motion(driven_motor).velocity_with_fraction != velocity_;
   if (is_new_motion || now_ == end_of_span_) commit();
 }
 
@@ -114,7 +114,10 @@ void DriveTrain::begin_span() {
     at_target_ = !at_target_;
     ++arrivals_;
   }
-  field_.begin(now_, drive(), tmc429_->motion(driven_motor));
+  const Tmc429::Motion motion = tmc429_->motion(driven_motor);
+  velocity_ = motion.velocity_with_fraction;
+  field_.begin(now_, drive(), motion);
+  look_.reset();
   watches_ramp_ = !tmc429_->changes_velocity(driven_motor);
   end_of_span_ = motor_ ? end_of_span() : end_of_ideal_span();
 }
@@ -300,7 +303,8 @@ void DriveTrain::turn_ideal_rotor(Tick tick) {
 
 std::int64_t DriveTrain::shaft_angle() const {
   if (!motor_ || motor_->now() == now_) return committed_shaft_angle();
-  return microstep_at(motor_->state_at(now_, field()).angle);
+  if (!look_ || look_->tick != now_) look_ = {now_, microstep_at(motor_->state_at(now_, field()).angle)};
+  return look_->angle;
 }
 
 std::int64_t DriveTrain::committed_shaft_angle() const {

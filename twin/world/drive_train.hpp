@@ -113,7 +113,14 @@ class DriveTrain : private StepListener {
   Load load_;
   FieldTracker field_;
   Tick end_of_span_ = 0;
-  bool watches_ramp_ = true;  ///< a change of velocity ends the span
+  bool watches_ramp_ = true;   ///< a change of velocity ends the span
+  std::int32_t velocity_ = 0;  ///< of the ramp generator when the span began, with its fraction
+  /// Between the ends of spans the firmware looks more than once in a turn.
+  struct Look {
+    Tick tick;
+    std::int64_t angle;
+  };
+  mutable std::optional<Look> look_;
   bool at_target_ = true;
   std::uint64_t arrivals_ = 0;
   bool direction_ = false;
