@@ -115,6 +115,36 @@ TEST_F(PtyEndpointTest, KeepsTheRepliesOfAHostThatIsSlowToRead) {
   sender.join();
 }
 
+TEST_F(PtyEndpointTest, ReadsNoMoreFromAHostWhoseRequestsNobodyTakes) {
+  auto endpoint_without_module = PtyEndpoint::open(
+      events, [](WallTime) {}, [this] { return now; });
+  ASSERT_TRUE(endpoint_without_module.ok());
+  auto host = client::open_serial(endpoint_without_module->path());
+  constexpr int count = 2000;
+  std::thread sender([&] {
+    for (int i = 0; i < count; ++i) send(**host, Request{1, {1, 0, 0, i}});
+  });
+  RequestPort& port = endpoint_without_module->port();
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  const auto run_until = [&](const auto& condition) {
+    while (!condition() && std::chrono::steady_clock::now() < deadline)
+      events.run_one_for(std::chrono::milliseconds(1));
+    return condition();
+  };
+  EXPECT_TRUE(run_until([&] { return port.is_full(); }));
+  events.poll();
+  EXPECT_LT(port.size(), 2 * RequestPort::capacity);
+  // Taken at last, they all arrive: that nobody listened was no silence of the host.
+  now += std::chrono::seconds(1);
+  int received = 0;
+  EXPECT_TRUE(run_until([&] {
+    std::uint8_t buffer[datagram_size];
+    for (; port.read(buffer, sizeof buffer) > 0; ++received) EXPECT_EQ(received & 0xFF, buffer[7]);
+    return received == count;
+  }));
+  sender.join();
+}
+
 struct TcpEndpointTest : Hosts {
   TcpEndpointTest()
       : endpoint(

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
+#include <vector>
 
 #include "server/request_port.hpp"
 
@@ -19,7 +19,7 @@ class MemoryLine final : public ReplySink {
   void send(const Datagram& request) { port_.push(request, *this); }
 
   /// Bytes the module has sent; whoever takes them removes them.
-  std::deque<std::uint8_t>& received() { return received_; }
+  std::vector<std::uint8_t>& received() { return received_; }
 
   void reply(std::span<const std::uint8_t> bytes) override {
     received_.insert(received_.end(), bytes.begin(), bytes.end());
@@ -27,7 +27,7 @@ class MemoryLine final : public ReplySink {
 
  private:
   RequestPort port_;
-  std::deque<std::uint8_t> received_;
+  std::vector<std::uint8_t> received_;
 };
 
 }  // namespace opentmcl::server

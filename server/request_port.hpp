@@ -2,8 +2,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <span>
+#include <vector>
 
 #include "firmware/hal/byte_port.hpp"
 #include "firmware/wire/datagram.hpp"
@@ -16,6 +16,9 @@ class ReplySink {
  public:
   virtual void reply(std::span<const std::uint8_t> bytes) = 0;
 
+  /// The port that was full has room again. Only for senders that wait_for_room().
+  virtual void room_again() {}
+
  protected:
   ~ReplySink() = default;
 };
@@ -24,8 +27,14 @@ class ReplySink {
 /// and reads the next one only when it is done with it; so what it writes is for the sender of the request it read
 /// last. In ASCII mode it reads single characters, and what it writes is for the sender of the last of them: senders
 /// that type at the same time share one line.
+///
+/// The queue is short: a sender that has filled it is to read no more from its host until there is room, so that a
+/// host that floods its module costs no memory and is slowed down by its own line.
 class RequestPort final : public hal::BytePort, public RequestQueue {
  public:
+  /// Requests and characters that wait before the port is full. What a sender has in hand may still be pushed.
+  static constexpr std::size_t capacity = 256;
+
   /// `sender` must forget() itself before it goes away.
   void push(const Datagram& request, ReplySink& sender);
 
@@ -41,9 +50,13 @@ class RequestPort final : public hal::BytePort, public RequestQueue {
   void forget(const ReplySink& sender);
 
   /// Requests and characters the firmware has not read yet.
-  std::size_t size() const override { return entries_.size(); }
+  std::size_t size() const override { return entries_.size() - first_; }
 
-  std::size_t read(std::uint8_t* buffer, std::size_t capacity) override;
+  bool is_full() const { return size() >= capacity; }
+  /// `sender` is told once, by room_again(), when the port is no longer full.
+  void wait_for_room(ReplySink& sender) { waiting_.push_back(&sender); }
+
+  std::size_t read(std::uint8_t* buffer, std::size_t room) override;
   void write(const std::uint8_t* data, std::size_t length) override;
   void set_text_mode(bool text) override {
     if (text != text_mode_) ++mode_changes_;
@@ -58,7 +71,11 @@ class RequestPort final : public hal::BytePort, public RequestQueue {
     ReplySink* sender;
   };
 
-  std::deque<Entry> entries_;
+  void drop_first();
+
+  std::vector<Entry> entries_;
+  std::size_t first_ = 0;  // entries before it have been read
+  std::vector<ReplySink*> waiting_;
   std::size_t offset_ = 0;        // bytes of the first entry that have been read
   ReplySink* current_ = nullptr;  // sender of the entry that was read last
   bool text_mode_ = false;

@@ -11,7 +11,9 @@ struct Sender final : ReplySink {
   void reply(std::span<const std::uint8_t> bytes) override {
     received.insert(received.end(), bytes.begin(), bytes.end());
   }
+  void room_again() override { ++times_told; }
   std::vector<std::uint8_t> received;
+  int times_told = 0;
 };
 
 Datagram request(std::uint8_t opcode) {
@@ -93,6 +95,39 @@ TEST_F(RequestPortTest, DropsRequestsAndRepliesOfASenderThatIsGone) {
   answer(11);
   EXPECT_TRUE(first.received.empty());
   EXPECT_EQ(3, read_opcode());
+}
+
+TEST_F(RequestPortTest, TellsWhoWaitsOnceThatThereIsRoomAgain) {
+  for (std::size_t i = 0; i < RequestPort::capacity; ++i) {
+    EXPECT_FALSE(port.is_full());
+    port.push(request(1), first);
+  }
+  EXPECT_TRUE(port.is_full());
+  port.wait_for_room(first);
+  while (port.size() > RequestPort::capacity / 2 + 1) read_opcode();
+  EXPECT_EQ(0, first.times_told);
+  while (port.size() > 0) read_opcode();
+  EXPECT_EQ(1, first.times_told);
+}
+
+TEST_F(RequestPortTest, KeepsTheOrderOfManyMoreRequestsThanItHoldsAtATime) {
+  std::uint8_t sent = 0;
+  std::uint8_t received = 0;
+  for (std::size_t i = 0; i < 10 * RequestPort::capacity; ++i) {
+    port.push(request(sent++), first);
+    port.push(request(sent++), second);
+    ASSERT_EQ(received++, read_opcode());
+    if (port.size() < RequestPort::capacity) continue;
+    while (port.size() > 5) ASSERT_EQ(received++, read_opcode());
+  }
+}
+
+TEST_F(RequestPortTest, DoesNotTellWhoIsGone) {
+  for (std::size_t i = 0; i < RequestPort::capacity; ++i) port.push(request(1), second);
+  port.wait_for_room(first);
+  port.forget(first);
+  while (port.size() > 0) read_opcode();
+  EXPECT_EQ(0, first.times_told);
 }
 
 TEST_F(RequestPortTest, FinishesARequestThatWasReadInPart) {

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -35,21 +36,21 @@ class StreamLine final : public ReplySink, public std::enable_shared_from_this<S
 
   /// Reads until the stream ends.
   void read() {
-    stream_.async_read_some(
-        boost::asio::buffer(received_),
-        [self = this->shared_from_this()](const boost::system::error_code& error, std::size_t count) {
-          if (error) {
-            self->close();
-          } else {
-            self->take(count);
-          }
-        });
+    is_reading_ = true;
+    stream_.async_wait(Stream::wait_read, [self = this->shared_from_this()](const boost::system::error_code& error) {
+      if (error) {
+        self->close();
+      } else {
+        self->take();
+      }
+    });
   }
 
   void close() {
     boost::system::error_code nothing_left_to_do;
     stream_.close(nothing_left_to_do);
     port_->forget(*this);
+    is_waiting_for_room_ = false;
   }
 
   void reply(std::span<const std::uint8_t> bytes) override {
@@ -66,22 +67,66 @@ class StreamLine final : public ReplySink, public std::enable_shared_from_this<S
     if (!already_waiting) send_rest();
   }
 
+  void room_again() override {
+    is_waiting_for_room_ = false;
+    read_if_there_is_room();
+  }
+
  private:
-  void take(std::size_t count) {
+  /// More than a hundred requests.
+  static constexpr std::size_t bytes_per_turn = 1024;
+
+  void take() {
+    // On the stack, for most lines are silent at most times. Whoever sends more than fits has to let others have their
+    // turn before the rest is read.
+    std::array<std::uint8_t, bytes_per_turn> received;  // NOLINT(cppcoreguidelines-pro-type-member-init): read into
+    boost::system::error_code error;
+    const std::size_t count = stream_.read_some(boost::asio::buffer(received), error);
+    is_reading_ = false;
+    if (error && error != boost::asio::error::would_block) {
+      close();
+      return;
+    }
+    if (count > 0) pass_on({received.data(), count});
+    read_if_there_is_room();
+  }
+
+  void pass_on(std::span<const std::uint8_t> bytes) {
     // Half a request is forgotten after 5 ms of silence on the wall clock, as the host sees it.
     const WallTime wall = clock_();
     const auto now = static_cast<Microseconds>(
-        std::chrono::duration_cast<std::chrono::microseconds>(wall.time_since_epoch()).count());
-    if (cutter_.take({received_.data(), count}, now, *port_, *this)) {
+        std::chrono::duration_cast<std::chrono::microseconds>((wall - not_listened_).time_since_epoch()).count());
+    if (cutter_.take(bytes, now, *port_, *this)) {
       requests_arrived_(wall);
       if (cutter_.take_rest(*port_, *this)) requests_arrived_(wall);
     }
-    // A host that does not read its replies may not send more either.
-    if (unsent_.empty()) {
+  }
+
+  /// A host that does not read its replies may not send more either.
+  void read_if_there_is_room() {
+    if (is_reading_ || !stream_.is_open()) return;
+    const bool is_free = unsent_.empty() && !is_waiting_for_room_;
+    if (is_free && !port_->is_full()) {
+      // What came meanwhile was no silence of the host.
+      if (deaf_since_) not_listened_ += clock_() - *std::exchange(deaf_since_, std::nullopt);
       read();
-    } else {
-      reading_ = false;
+      return;
     }
+    if (!deaf_since_) deaf_since_ = clock_();
+    if (!is_free) return;
+    is_waiting_for_room_ = true;
+    port_->wait_for_room(*this);
+    watch();
+  }
+
+  /// Keeps this alive, and notices a host that is gone, while nothing is read.
+  void watch() {
+    if (is_watched_) return;
+    is_watched_ = true;
+    stream_.async_wait(Stream::wait_error, [self = this->shared_from_this()](const boost::system::error_code& error) {
+      self->is_watched_ = false;
+      if (!error) self->close();
+    });
   }
 
   void send_rest() {
@@ -99,10 +144,8 @@ class StreamLine final : public ReplySink, public std::enable_shared_from_this<S
       send_rest();
       return;
     }
-    if (!reading_) {
-      reading_ = true;
-      read();
-    }
+    unsent_.shrink_to_fit();
+    read_if_there_is_room();
   }
 
   Stream stream_;
@@ -110,9 +153,12 @@ class StreamLine final : public ReplySink, public std::enable_shared_from_this<S
   RequestsArrived requests_arrived_;
   WallClock clock_;
   RequestCutter cutter_;
-  std::array<std::uint8_t, 4096> received_{};
-  std::vector<std::uint8_t> unsent_;  // replies the host has not made room for yet
-  bool reading_ = true;
+  std::vector<std::uint8_t> unsent_;    // replies the host has not made room for yet
+  std::optional<WallTime> deaf_since_;  // when reading stopped because there was no room
+  WallTime::duration not_listened_{0};  // how long that has been in all
+  bool is_reading_ = false;
+  bool is_waiting_for_room_ = false;
+  bool is_watched_ = false;
 };
 
 }  // namespace opentmcl::server
