@@ -30,8 +30,8 @@ double unix_time() {
 /// former, recognisable by the port of its own that no other socket has.
 class Member final : public CanFrameSink, public std::enable_shared_from_this<Member> {
  public:
-  Member(asio::io_context& events, udp::endpoint group, std::shared_ptr<SharedCanPort> bus,
-         RequestsArrived requests_arrived, WallClock clock)
+  Member(asio::io_context& events, udp::endpoint group, std::shared_ptr<CanBus> bus, RequestsArrived requests_arrived,
+         WallClock clock)
       : group_(std::move(group)),
         receiver_(events),
         sender_(events),
@@ -53,6 +53,7 @@ class Member final : public CanFrameSink, public std::enable_shared_from_this<Me
     sender_.open(group_.protocol(), error);
     if (!error) sender_.bind(udp::endpoint(group_.protocol(), 0), error);
     if (!error) sender_.non_blocking(true, error);
+    if (!error) receiver_.non_blocking(true, error);
     // Not even to the next router: the module is for this machine.
     if (!error) sender_.set_option(asio::ip::multicast::hops(0), error);
     if (error) return error;
@@ -62,12 +63,11 @@ class Member final : public CanFrameSink, public std::enable_shared_from_this<Me
   }
 
   void receive() {
-    receiver_.async_receive_from(asio::buffer(packet_), from_,
-                                 [self = shared_from_this()](const error_code& error, std::size_t count) {
-                                   if (error == asio::error::operation_aborted) return;
-                                   if (!error) self->take(count);
-                                   self->receive();
-                                 });
+    receiver_.async_wait(udp::socket::wait_read, [self = shared_from_this()](const error_code& error) {
+      if (error == asio::error::operation_aborted) return;
+      if (!error) self->take_packet();
+      self->receive();
+    });
   }
 
   void send(const hal::CanFrame& frame) override {
@@ -92,9 +92,13 @@ class Member final : public CanFrameSink, public std::enable_shared_from_this<Me
     return error;
   }
 
-  void take(std::size_t count) {
-    if (!is_of_this_machine(from_)) return;
-    const auto frame = decode_udp_can_frame(std::span(packet_).first(count));
+  void take_packet() {
+    std::array<std::uint8_t, longest_packet> packet;  // NOLINT(cppcoreguidelines-pro-type-member-init): read into
+    udp::endpoint from;
+    error_code error;
+    const std::size_t count = receiver_.receive_from(asio::buffer(packet), from, 0, error);
+    if (error || !is_of_this_machine(from)) return;
+    const auto frame = decode_udp_can_frame(std::span(packet).first(count));
     if (!frame) return;
     bus_->push(*frame, *this);
     requests_arrived_(clock_());
@@ -119,18 +123,16 @@ class Member final : public CanFrameSink, public std::enable_shared_from_this<Me
   udp::endpoint group_;
   udp::socket receiver_;
   udp::socket sender_;
-  std::shared_ptr<SharedCanPort> bus_;
+  std::shared_ptr<CanBus> bus_;
   RequestsArrived requests_arrived_;
   WallClock clock_;
-  std::array<std::uint8_t, longest_packet> packet_{};
-  udp::endpoint from_;
   asio::ip::address trusted_;  // the last address of this machine that was seen
 };
 
 }  // namespace
 
 client::Result<CanUdpEndpoint> CanUdpEndpoint::join(asio::io_context& events, const std::string& group,
-                                                    std::uint16_t port, std::shared_ptr<SharedCanPort> bus,
+                                                    std::uint16_t port, std::shared_ptr<CanBus> bus,
                                                     RequestsArrived requests_arrived, WallClock clock) {
   error_code error;
   const asio::ip::address address = asio::ip::make_address(group, error);

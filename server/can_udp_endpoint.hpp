@@ -24,7 +24,7 @@ class CanUdpEndpoint {
   /// @param requests_arrived called when `bus` has new frames
   /// Errors: usage (no multicast address, port 0), input_output.
   static client::Result<CanUdpEndpoint> join(boost::asio::io_context& events, const std::string& group,
-                                             std::uint16_t port, std::shared_ptr<SharedCanPort> bus,
+                                             std::uint16_t port, std::shared_ptr<CanBus> bus,
                                              RequestsArrived requests_arrived,
                                              WallClock clock = std::chrono::steady_clock::now);
 

@@ -105,5 +105,40 @@ TEST_F(SharedCanPortTest, KnowsTheSpeedAtWhichTheModuleJoined) {
   EXPECT_EQ(250'000u, port.bit_rate());
 }
 
+TEST_F(SharedCanPortTest, LosesWhatDoesNotFit) {
+  for (std::uint32_t id = 0; id < SharedCanPort::capacity + 10; ++id) push(id, first);
+  EXPECT_EQ(SharedCanPort::capacity, port.size());
+  EXPECT_EQ(0u, read_id());
+}
+
+TEST(SharedCanBus, LetsEachModuleHearEachEndpointAndAnswerItAlone) {
+  SharedCanBus bus;
+  SharedCanPort& one = bus.connect();
+  SharedCanPort& other = bus.connect();
+  Sender first;
+  Sender second;
+  bus.push({1, false, 7, {}}, first);
+  bus.push({2, false, 7, {}}, second);
+  hal::CanFrame frame;
+  ASSERT_TRUE(one.read(frame));
+  one.write({11, false, 7, {}});
+  ASSERT_TRUE(other.read(frame));
+  EXPECT_EQ(1u, frame.id);
+  ASSERT_TRUE(other.read(frame));
+  EXPECT_EQ(2u, frame.id);
+  other.write({22, false, 7, {}});
+  EXPECT_EQ(Ids{11}, first.received);
+  EXPECT_EQ(Ids{22}, second.received);
+  bus.forget(second);
+  EXPECT_EQ(0u, one.size());
+}
+
+TEST(SharedCanBus, HasTheSpeedOfItsModules) {
+  SharedCanBus bus;
+  EXPECT_EQ(0u, bus.bit_rate());
+  bus.connect().join(500'000);
+  EXPECT_EQ(500'000u, bus.bit_rate());
+}
+
 }  // namespace
 }  // namespace opentmcl::server

@@ -92,7 +92,7 @@ void append_hexadecimal(std::string& text, std::uint32_t number, int digits) {
 
 }  // namespace
 
-SlcanChannel::SlcanChannel(SharedCanPort& bus, Write write, WallClock clock)
+SlcanChannel::SlcanChannel(CanBus& bus, Write write, WallClock clock)
     : bus_(bus), write_(std::move(write)), clock_(std::move(clock)) {}
 
 bool SlcanChannel::take(std::span<const std::uint8_t> bytes) {

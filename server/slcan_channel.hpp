@@ -25,7 +25,7 @@ class SlcanChannel final : public CanFrameSink {
   /// @param bus must outlive the channel
   /// @param write takes text for the host
   /// @param clock gives the time stamps
-  SlcanChannel(SharedCanPort& bus, Write write, WallClock clock);
+  SlcanChannel(CanBus& bus, Write write, WallClock clock);
   SlcanChannel(const SlcanChannel&) = delete;
   SlcanChannel& operator=(const SlcanChannel&) = delete;
   ~SlcanChannel() { bus_.forget(*this); }
@@ -49,7 +49,7 @@ class SlcanChannel final : public CanFrameSink {
   bool hears_module() const;
   std::uint32_t time_stamp() const;
 
-  SharedCanPort& bus_;
+  CanBus& bus_;
   Write write_;
   WallClock clock_;
   std::string line_;

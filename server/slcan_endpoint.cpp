@@ -21,7 +21,7 @@ class SlcanLine final : public std::enable_shared_from_this<SlcanLine> {
  public:
   using Stream = asio::posix::basic_stream_descriptor<asio::io_context::executor_type>;
 
-  SlcanLine(Stream stream, std::shared_ptr<SharedCanPort> bus, RequestsArrived requests_arrived, WallClock clock)
+  SlcanLine(Stream stream, std::shared_ptr<CanBus> bus, RequestsArrived requests_arrived, WallClock clock)
       : stream_(std::move(stream)),
         bus_(std::move(bus)),
         requests_arrived_(std::move(requests_arrived)),
@@ -33,17 +33,25 @@ class SlcanLine final : public std::enable_shared_from_this<SlcanLine> {
 
   void read() {
     is_reading_ = true;
-    stream_.async_read_some(asio::buffer(received_),
-                            [self = shared_from_this()](const boost::system::error_code& error, std::size_t count) {
-                              if (!error) self->take(count);
-                            });
+    stream_.async_wait(Stream::wait_read, [self = shared_from_this()](const boost::system::error_code& error) {
+      if (!error) self->take();
+    });
   }
 
  private:
-  void take(std::size_t count) {
-    if (channel_.take(std::span(received_).first(count))) requests_arrived_(clock_());
-    // A host that does not read what it is sent may not send more either.
+  /// More than the longest line; who sends more lets others have their turn first.
+  static constexpr std::size_t bytes_per_turn = 1024;
+  /// What a host that does not read costs at most; frames for it are lost then, as an adapter's memory is small too.
+  static constexpr std::size_t most_unsent = 16'384;
+
+  void take() {
+    std::array<std::uint8_t, bytes_per_turn> received;  // NOLINT(cppcoreguidelines-pro-type-member-init): read into
+    boost::system::error_code error;
+    const std::size_t count = stream_.read_some(asio::buffer(received), error);
     is_reading_ = false;
+    if (error && error != asio::error::would_block) return;
+    if (count > 0 && channel_.take(std::span(received).first(count))) requests_arrived_(clock_());
+    // A host that does not read what it is sent may not send more either.
     read_unless_reading();
   }
 
@@ -53,6 +61,7 @@ class SlcanLine final : public std::enable_shared_from_this<SlcanLine> {
 
   void write(std::string_view text) {
     const bool already_waiting = !unsent_.empty();
+    if (unsent_.size() + text.size() > most_unsent) return;
     if (!already_waiting) {
       boost::system::error_code error;
       const std::size_t sent = stream_.write_some(asio::buffer(text), error);
@@ -82,10 +91,9 @@ class SlcanLine final : public std::enable_shared_from_this<SlcanLine> {
   }
 
   Stream stream_;
-  std::shared_ptr<SharedCanPort> bus_;
+  std::shared_ptr<CanBus> bus_;
   RequestsArrived requests_arrived_;
   WallClock clock_;
-  std::array<std::uint8_t, 4096> received_{};
   bool is_reading_ = false;
   std::string unsent_;  // what the host has not made room for yet
   SlcanChannel channel_;
@@ -93,7 +101,7 @@ class SlcanLine final : public std::enable_shared_from_this<SlcanLine> {
 
 }  // namespace
 
-client::Result<SlcanEndpoint> SlcanEndpoint::open(asio::io_context& events, std::shared_ptr<SharedCanPort> bus,
+client::Result<SlcanEndpoint> SlcanEndpoint::open(asio::io_context& events, std::shared_ptr<CanBus> bus,
                                                   RequestsArrived requests_arrived, WallClock clock) {
   client::Result<Pty> pty = Pty::open();
   if (!pty) return pty.error();

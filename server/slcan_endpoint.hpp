@@ -21,7 +21,7 @@ class SlcanEndpoint {
   /// @param requests_arrived called when `bus` has new frames
   /// @param clock gives time stamps
   /// Error: input_output.
-  static client::Result<SlcanEndpoint> open(boost::asio::io_context& events, std::shared_ptr<SharedCanPort> bus,
+  static client::Result<SlcanEndpoint> open(boost::asio::io_context& events, std::shared_ptr<CanBus> bus,
                                             RequestsArrived requests_arrived,
                                             WallClock clock = std::chrono::steady_clock::now);
 

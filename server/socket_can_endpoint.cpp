@@ -24,7 +24,7 @@ class Node final : public CanFrameSink, public std::enable_shared_from_this<Node
  public:
   using Stream = asio::posix::basic_stream_descriptor<asio::io_context::executor_type>;
 
-  Node(Stream socket, std::shared_ptr<SharedCanPort> bus, RequestsArrived requests_arrived, WallClock clock)
+  Node(Stream socket, std::shared_ptr<CanBus> bus, RequestsArrived requests_arrived, WallClock clock)
       : socket_(std::move(socket)),
         bus_(std::move(bus)),
         requests_arrived_(std::move(requests_arrived)),
@@ -67,7 +67,7 @@ class Node final : public CanFrameSink, public std::enable_shared_from_this<Node
   }
 
   Stream socket_;
-  std::shared_ptr<SharedCanPort> bus_;
+  std::shared_ptr<CanBus> bus_;
   RequestsArrived requests_arrived_;
   WallClock clock_;
   can_frame frame_{};
@@ -84,8 +84,8 @@ std::string system_message() {
 }  // namespace
 
 client::Result<SocketCanEndpoint> SocketCanEndpoint::open(asio::io_context& events, const std::string& interface,
-                                                          std::shared_ptr<SharedCanPort> bus,
-                                                          RequestsArrived requests_arrived, WallClock clock) {
+                                                          std::shared_ptr<CanBus> bus, RequestsArrived requests_arrived,
+                                                          WallClock clock) {
   client::FileDescriptor socket(::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW));
   if (!socket.is_open()) {
     const bool is_missing = errno == EAFNOSUPPORT || errno == EPROTONOSUPPORT;
@@ -102,8 +102,8 @@ client::Result<SocketCanEndpoint> SocketCanEndpoint::open(asio::io_context& even
   return SocketCanEndpoint(interface);
 }
 
-void SocketCanEndpoint::serve(asio::io_context& events, client::FileDescriptor socket,
-                              std::shared_ptr<SharedCanPort> bus, RequestsArrived requests_arrived, WallClock clock) {
+void SocketCanEndpoint::serve(asio::io_context& events, client::FileDescriptor socket, std::shared_ptr<CanBus> bus,
+                              RequestsArrived requests_arrived, WallClock clock) {
   std::make_shared<Node>(Node::Stream(events, socket.release()), std::move(bus), std::move(requests_arrived),
                          std::move(clock))
       ->read();

@@ -21,11 +21,11 @@ class SocketCanEndpoint {
   /// @param requests_arrived called when `bus` has new frames
   /// Errors: no_such_device (a kernel without SocketCAN, no such interface), input_output.
   static client::Result<SocketCanEndpoint> open(boost::asio::io_context& events, const std::string& interface,
-                                                std::shared_ptr<SharedCanPort> bus, RequestsArrived requests_arrived,
+                                                std::shared_ptr<CanBus> bus, RequestsArrived requests_arrived,
                                                 WallClock clock = std::chrono::steady_clock::now);
 
   /// Serves a socket that carries one `struct can_frame` a packet.
-  static void serve(boost::asio::io_context& events, client::FileDescriptor socket, std::shared_ptr<SharedCanPort> bus,
+  static void serve(boost::asio::io_context& events, client::FileDescriptor socket, std::shared_ptr<CanBus> bus,
                     RequestsArrived requests_arrived, WallClock clock = std::chrono::steady_clock::now);
 
   const std::string& interface() const { return interface_; }
