@@ -19,7 +19,7 @@ SimulatedTransport::SimulatedTransport(const ModuleDescription& description)
       line_(bench_->line),
       name_(std::string("sim:") + description.argument) {}
 
-SimulatedTransport::SimulatedTransport(VirtualModule& module, MemoryLine& line, std::string name)
+SimulatedTransport::SimulatedTransport(Simulated& module, MemoryLine& line, std::string name)
     : module_(module), line_(line), name_(std::move(name)) {}
 
 SimulatedTransport::~SimulatedTransport() = default;
@@ -37,7 +37,7 @@ void SimulatedTransport::take_turn() {
 
 client::Result<std::size_t> SimulatedTransport::receive(std::span<std::uint8_t> buffer, client::Duration limit) {
   const Microseconds deadline = module_.now() + static_cast<Microseconds>(std::max(limit, client::Duration(0)).count());
-  std::deque<std::uint8_t>& received = line_.received();
+  std::vector<std::uint8_t>& received = line_.received();
   // A turn that takes no request may still prepare for the next one, as the first after power-on does.
   constexpr int most_vain_turns = 2;
   for (int turn = 0; turn < most_vain_turns && received.empty() && line_.port().size() > 0; ++turn) take_turn();

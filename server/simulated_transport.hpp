@@ -16,8 +16,9 @@ class SimulatedTransport final : public client::Transport {
  public:
   /// A module of its own, fresh from the factory.
   explicit SimulatedTransport(const ModuleDescription& description);
-  /// A module that others use too; both must outlive this. `line`'s port must be one of the module's.
-  SimulatedTransport(VirtualModule& module, MemoryLine& line, std::string name);
+  /// A module that others use too, or the line that it is on; both must outlive this. `line`'s port must be one of the
+  /// module's.
+  SimulatedTransport(Simulated& module, MemoryLine& line, std::string name);
   ~SimulatedTransport() override;
 
   client::Result<void> send(std::span<const std::uint8_t> bytes) override;
@@ -33,7 +34,7 @@ class SimulatedTransport final : public client::Transport {
   void take_turn();
 
   std::unique_ptr<Bench> bench_;  // none when others own the module
-  VirtualModule& module_;
+  Simulated& module_;
   MemoryLine& line_;
   std::string name_;
   RequestCutter cutter_;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "boards/twin/simulated.hpp"
 #include "firmware/hal/hal.hpp"
 #include "firmware/spec/modules.hpp"
 #include "twin/world/world.hpp"
@@ -31,7 +32,7 @@ class BenchActor {
 
 /// A module as on the bench: the firmware on a board whose chips, motor and EEPROM are models. It only knows simulated
 /// time; the same bytes at the same times give the same replies and the same motion.
-class VirtualModule {
+class VirtualModule final : public Simulated {
  public:
   struct Options {
     /// Length of a turn of the firmware's main loop while a TMCL program runs: one instruction each. A property of the
@@ -66,20 +67,20 @@ class VirtualModule {
   const ModuleDescription& description() const { return description_; }
 
   /// Simulated time since the module was made.
-  Microseconds now() const { return world_.now() / twin::ticks_per_microsecond; }
+  Microseconds now() const override { return world_.now() / twin::ticks_per_microsecond; }
 
   /// Runs firmware and world up to and including `time`; a time in the past changes nothing.
-  void advance_to(Microseconds time);
+  void advance_to(Microseconds time) override;
 
   /// `actor` acts from now on, those that were added earlier first; it must outlive the module.
   void add_actor(BenchActor& actor) { actors_.push_back(&actor); }
 
   /// Something happened outside, such as bytes on a port: the firmware takes a turn at now() in the next advance_to().
-  void wake() { next_turn_ = watches_until_ = now(); }
+  void wake() override { next_turn_ = watches_until_ = now(); }
 
   /// When the firmware or an actor next needs to run if nothing happens outside; `never` while the firmware only waits
   /// for commands and no actor has anything to do.
-  Microseconds next_turn() const;
+  Microseconds next_turn() const override;
 
   /// Takes the supply away and gives it back: registers and RAM are lost, the EEPROM and the shaft stay.
   void power_cycle();
