@@ -17,11 +17,10 @@
 #include "apps/tmcl/sim_endpoints.hpp"
 #include "apps/tmcl/source_program.hpp"
 #include "apps/tmcl/status_line.hpp"
-#include "boards/twin/eeprom_file.hpp"
-#include "client/program_transfer.hpp"
-#include "server/file_lock.hpp"
+#include "boards/twin/virtual_module.hpp"
+#include "server/kept_eeprom.hpp"
 #include "server/live_simulation.hpp"
-#include "server/simulated_transport.hpp"
+#include "server/module_setup.hpp"
 
 namespace opentmcl::app {
 
@@ -44,69 +43,6 @@ struct SimOptions {
   bool no_start = false;
   bool quiet = false;
 };
-
-Error as_error(const EepromFileError& error) {
-  const bool is_bad = error.kind == EepromFileError::Kind::bad_content;
-  return {is_bad ? ErrorKind::bad_file : ErrorKind::input_output, error.message, {}};
-}
-
-/// The file behind a module's EEPROM, and the lock that keeps a second module out of it.
-class KeptEeprom {
- public:
-  static Result<std::unique_ptr<KeptEeprom>> open(const std::string& path, const ModuleDescription& description) {
-    Result<server::FileLock> lock = server::FileLock::acquire(path);
-    if (!lock) return lock.error();
-    return std::make_unique<KeptEeprom>(std::move(*lock), EepromFile(path, description));
-  }
-  KeptEeprom(server::FileLock lock, EepromFile file) : lock_(std::move(lock)), file_(std::move(file)) {}
-
-  Result<void> load(VirtualModule& module) {
-    if (const auto error = file_.load(module.world().eeprom())) return as_error(*error);
-    return {};
-  }
-  Result<void> save(VirtualModule& module) {
-    if (const auto error = file_.save(module.world().eeprom())) return as_error(*error);
-    return {};
-  }
-  /// Lets the module finish what it has been told to store, as a supply that fades slowly does, and saves it.
-  Result<void> finish(VirtualModule& module) {
-    const Microseconds give_up = module.now() + longest_fade;
-    std::uint64_t written = 0;
-    do {
-      written = module.world().eeprom().bytes_written();
-      module.advance_to(module.now() + quiet_time);
-    } while (module.world().eeprom().bytes_written() != written && module.now() < give_up);
-    return save(module);
-  }
-
- private:
-  /// Longer than the firmware ever waits between two page writes.
-  static constexpr Microseconds quiet_time = 50 * one_millisecond;
-  /// A program that stores something again and again would never be finished.
-  static constexpr Microseconds longest_fade = 5000 * one_millisecond;
-
-  server::FileLock lock_;
-  EepromFile file_;
-};
-
-/// Loads a program through the module's own commands, in the module's own time, and starts it.
-Result<void> load_program(VirtualModule& module, server::MemoryLine& line, const std::vector<Command>& commands,
-                          bool start) {
-  server::SimulatedTransport transport(module, line, "the virtual module");
-  module.advance_to(module.now());
-  if (line.port().is_in_text_mode()) {
-    // The module starts in ASCII mode (global parameter 67); programs are loaded in binary mode.
-    constexpr std::uint8_t leave_ascii_mode[] = {'A', 'B', 'I', 'N', '\r'};
-    if (Result<void> sent = transport.send(leave_ascii_mode); !sent) return sent;
-    module.wake();
-    module.advance_to(module.now() + one_millisecond);
-    transport.drain();
-  }
-  client::Client client(transport);
-  const auto keep_going = [](std::size_t, std::size_t) { return true; };
-  if (Result<void> loaded = client::download(client, commands, 0, keep_going); !loaded) return loaded;
-  return start ? client.start_program() : Result<void>();
-}
 
 void introduce_as_json(const ModuleDescription& module, const SimEndpoints& endpoints) {
   fmt::print("{}\n", nlohmann::ordered_json{{"module", module.name},
@@ -210,9 +146,9 @@ Result<void> run_sim(const Context& context, const SimOptions& options) {
     commands = assembled->program->commands;
   }
   if (Result<void> prepared = bench.prepare_recording(); !prepared) return prepared;
-  std::unique_ptr<KeptEeprom> eeprom;
+  std::unique_ptr<server::KeptEeprom> eeprom;
   if (!options.eeprom.empty()) {
-    Result<std::unique_ptr<KeptEeprom>> opened = KeptEeprom::open(options.eeprom, description);
+    Result<std::unique_ptr<server::KeptEeprom>> opened = server::KeptEeprom::open(options.eeprom, description);
     if (!opened) return opened.error();
     eeprom = std::move(*opened);
   }
@@ -232,6 +168,7 @@ Result<void> run_sim(const Context& context, const SimOptions& options) {
   VirtualModule::Options board = scenario.board();
   board.can = endpoints->can_port();
   VirtualModule module(description, ports, board, bench.observer());
+  endpoints->connect(module);
   bench.prepare(module);
   if (eeprom) {
     if (Result<void> loaded = eeprom->load(module); !loaded) return loaded;
@@ -239,7 +176,7 @@ Result<void> run_sim(const Context& context, const SimOptions& options) {
   // Who hears of the module finds it started, and on its CAN bus.
   module.advance_to(module.now());
   if (!commands.empty()) {
-    if (Result<void> loaded = load_program(module, line, commands, !options.no_start); !loaded) return loaded;
+    if (Result<void> loaded = server::load_program(module, line, commands, !options.no_start); !loaded) return loaded;
   }
 
   simulation.emplace(events, module, requests, pace);
@@ -290,6 +227,10 @@ void add_sim(CLI::App& app, Context& context) {
       ->add_option("--port-kind", options->endpoints.port_kind,
                    "what the serial port stands for: usb, rs485, or rs232 (pd1161)")
       ->capture_default_str();
+  command
+      ->add_option("--wire", options->endpoints.wire,
+                   "bit/s of the serial port and of TCP: bytes take their time; without it they take none")
+      ->check(CLI::Range(300U, 1'000'000U));
   command->add_option("--slcan-link", options->endpoints.slcan_link,
                       "tmcm1110: where to make a link to a serial CAN adapter (SLCAN)");
   command->add_option("--can-udp", options->endpoints.can_udp,
