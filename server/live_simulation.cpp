@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
-#include <boost/asio/steady_timer.hpp>
 #include <thread>
 #include <utility>
+
+#include "server/wake_up.hpp"
 
 namespace opentmcl::server {
 
@@ -21,27 +22,6 @@ constexpr std::chrono::milliseconds greatest_lag{50};
 /// Most hosts send the next request as soon as they have the reply. To be woken takes longer than all the rest of an
 /// answer, so the event loop is looked at this often, some 50 us, before it sleeps (docs/performance.md).
 constexpr int looks_after_a_request = 64;
-
-/// Ends the event loop's sleep at a given time. To set a timer costs the operating system more than the whole answer to
-/// a request, and every request puts the next turn off a little. So a timer that is set for too early stays; who is
-/// woken by it asks again.
-class WakeUp {
- public:
-  explicit WakeUp(boost::asio::io_context& events) : timer_(events) {}
-
-  void no_later_than(WallTime time) {
-    if (time >= set_for_) return;
-    set_for_ = time;
-    timer_.expires_at(time);
-    timer_.async_wait([this](const boost::system::error_code& error) {
-      if (!error) set_for_ = WallTime::max();
-    });
-  }
-
- private:
-  boost::asio::steady_timer timer_;
-  WallTime set_for_ = WallTime::max();  // max() while it is not set
-};
 
 }  // namespace
 

@@ -9,11 +9,11 @@
 namespace opentmcl::server {
 
 client::Result<PtyEndpoint> PtyEndpoint::open(boost::asio::io_context& events, RequestsArrived requests_arrived,
-                                              WallClock clock) {
+                                              WallClock clock, std::shared_ptr<RequestPort> port) {
   client::Result<Pty> pty = Pty::open();
   if (!pty) return pty.error();
 
-  auto port = std::make_shared<RequestPort>();
+  if (!port) port = std::make_shared<RequestPort>();
   using Stream = boost::asio::posix::basic_stream_descriptor<boost::asio::io_context::executor_type>;
   std::make_shared<StreamLine<Stream>>(Stream(events, pty->own_side.release()), port, std::move(requests_arrived),
                                        std::move(clock))

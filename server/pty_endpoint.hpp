@@ -20,9 +20,11 @@ class PtyEndpoint {
  public:
   /// @param requests_arrived called when port() has new requests
   /// @param clock tells the silence between two requests
+  /// @param port where the requests go, shared with other endpoints; nullptr: one of its own
   /// Error: input_output.
   static client::Result<PtyEndpoint> open(boost::asio::io_context& events, RequestsArrived requests_arrived,
-                                          WallClock clock = std::chrono::steady_clock::now);
+                                          WallClock clock = std::chrono::steady_clock::now,
+                                          std::shared_ptr<RequestPort> port = nullptr);
 
   RequestPort& port() { return *port_; }
 

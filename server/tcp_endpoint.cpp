@@ -49,7 +49,8 @@ client::Error cannot_listen(const std::string& where, const boost::system::error
 }  // namespace
 
 client::Result<TcpEndpoint> TcpEndpoint::listen(asio::io_context& events, const std::string& address,
-                                                std::uint16_t port, RequestsArrived requests_arrived, WallClock clock) {
+                                                std::uint16_t port, RequestsArrived requests_arrived, WallClock clock,
+                                                std::shared_ptr<RequestPort> requests) {
   const std::string where = address + " port " + std::to_string(port);
   boost::system::error_code error;
   const asio::ip::address parsed = asio::ip::make_address(address, error);
@@ -69,7 +70,7 @@ client::Result<TcpEndpoint> TcpEndpoint::listen(asio::io_context& events, const 
 
   const std::uint16_t chosen = acceptor.local_endpoint().port();
   const std::string url = "tcp://" + (parsed.is_v6() ? "[" + address + "]" : address) + ":" + std::to_string(chosen);
-  auto requests = std::make_shared<RequestPort>();
+  if (!requests) requests = std::make_shared<RequestPort>();
   std::make_shared<Acceptor>(std::move(acceptor), requests, std::move(requests_arrived), std::move(clock))->accept();
   return TcpEndpoint(std::move(requests), url);
 }

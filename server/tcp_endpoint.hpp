@@ -27,10 +27,12 @@ class TcpEndpoint {
   /// @param port 0 for any free one
   /// @param requests_arrived called when port() has new requests
   /// @param clock tells the silence between two requests
+  /// @param requests where they go, shared with other endpoints; nullptr: a port of its own
   /// Errors: usage (no address), input_output (the port is taken or not allowed).
   static client::Result<TcpEndpoint> listen(boost::asio::io_context& events, const std::string& address,
                                             std::uint16_t port, RequestsArrived requests_arrived,
-                                            WallClock clock = std::chrono::steady_clock::now);
+                                            WallClock clock = std::chrono::steady_clock::now,
+                                            std::shared_ptr<RequestPort> requests = nullptr);
 
   RequestPort& port() { return *port_; }
 

@@ -11,6 +11,7 @@ struct Context;
 
 void add_sim(CLI::App& app, Context& context);
 void add_scenario(CLI::App& app, Context& context);
+void add_farm(CLI::App& app, Context& context);
 void add_asm(CLI::App& app, Context& context);
 void add_dis(CLI::App& app, Context& context);
 void add_run(CLI::App& app, Context& context);

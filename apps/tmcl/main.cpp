@@ -46,6 +46,7 @@ int run(int argument_count, char** arguments) {
 
   add_sim(app, context);
   add_scenario(app, context);
+  add_farm(app, context);
   add_asm(app, context);
   add_dis(app, context);
   add_run(app, context);
