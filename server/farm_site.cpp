@@ -46,23 +46,24 @@ Error named(const std::string& name, Error error) {
 
 }  // namespace
 
-FarmSite::FarmSite(boost::asio::io_context& events, const FarmDescription& description, const Programs& programs,
-                   WallClock clock)
-    : events_(events), description_(description), programs_(programs), clock_(std::move(clock)) {}
+FarmSite::FarmSite(boost::asio::io_context& events, FarmDescription description, Programs programs, WallClock clock)
+    : events_(events), description_(std::move(description)), programs_(std::move(programs)), clock_(std::move(clock)) {}
 
 FarmSite::~FarmSite() = default;
 
-Result<std::unique_ptr<FarmSite>> FarmSite::build(boost::asio::io_context& events, const FarmDescription& description,
-                                                  const Programs& programs, Farm::Options options, WallClock clock) {
-  std::unique_ptr<FarmSite> site(new FarmSite(events, description, programs, std::move(clock)));
+Result<std::unique_ptr<FarmSite>> FarmSite::build(boost::asio::io_context& events, FarmDescription description,
+                                                  Programs programs, Farm::Options options, WallClock clock) {
+  std::unique_ptr<FarmSite> site(new FarmSite(events, std::move(description), std::move(programs), std::move(clock)));
   if (Result<void> built = site->build_buses(); !built) return built.error();
   const std::size_t count = site->description_.modules.size();
   for (std::size_t i = 0; i < count; ++i) {
-    if (Result<void> built = site->build_module(i); !built) return named(description.modules[i].name, built.error());
+    if (Result<void> built = site->build_module(i); !built)
+      return named(site->description_.modules[i].name, built.error());
   }
   // Only now that all ends of all lines are there may time pass.
   for (std::size_t i = 0; i < count; ++i) {
-    if (Result<void> done = site->set_up_module(i); !done) return named(description.modules[i].name, done.error());
+    if (Result<void> done = site->set_up_module(i); !done)
+      return named(site->description_.modules[i].name, done.error());
   }
   site->build_farm(options);
   return site;

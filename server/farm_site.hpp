@@ -24,9 +24,8 @@ class FarmSite {
   using Programs = std::function<const std::vector<Command>&(const FarmModule& module)>;
 
   /// Errors name the module or bus: usage, bad_file, input_output.
-  static client::Result<std::unique_ptr<FarmSite>> build(boost::asio::io_context& events,
-                                                         const FarmDescription& description, const Programs& programs,
-                                                         Farm::Options options,
+  static client::Result<std::unique_ptr<FarmSite>> build(boost::asio::io_context& events, FarmDescription description,
+                                                         Programs programs, Farm::Options options,
                                                          WallClock clock = std::chrono::steady_clock::now);
   ~FarmSite();
   FarmSite(const FarmSite&) = delete;
@@ -58,8 +57,7 @@ class FarmSite {
   struct Line;
   struct Bus;
 
-  FarmSite(boost::asio::io_context& events, const FarmDescription& description, const Programs& programs,
-           WallClock clock);
+  FarmSite(boost::asio::io_context& events, FarmDescription description, Programs programs, WallClock clock);
 
   client::Result<void> build_buses();
   client::Result<void> build_module(std::size_t index);

@@ -176,7 +176,7 @@ Result<void> run_farm(const Context& context, const FarmOptions& options) {
     if (!duration) return duration.error();
     pace.duration = *duration;
   }
-  const Result<server::FarmDescription> description = read_description(options.file);
+  Result<server::FarmDescription> description = read_description(options.file);
   if (!description) return description.error();
   Programs programs;
   if (Result<void> assembled = programs.assemble_all(*description); !assembled) return assembled;
@@ -185,7 +185,7 @@ Result<void> run_farm(const Context& context, const FarmOptions& options) {
   allow_many_files();
   // This thread is the only one: nothing needs a lock.
   asio::io_context events(BOOST_ASIO_CONCURRENCY_HINT_UNSAFE);
-  Result<std::unique_ptr<FarmSite>> built = FarmSite::build(events, *description, std::cref(programs), pace);
+  Result<std::unique_ptr<FarmSite>> built = FarmSite::build(events, std::move(*description), std::cref(programs), pace);
   if (!built) return built.error();
   FarmSite& site = **built;
   asio::signal_set signals(events, SIGINT, SIGTERM, SIGHUP);
