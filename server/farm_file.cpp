@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <iterator>
 #include <map>
-#include <set>
 #include <span>
 #include <utility>
 
@@ -23,13 +22,18 @@ namespace fs = std::filesystem;
 
 /// Where modules answer to, unless global parameters 76 and 70 say otherwise: a module with this address would take the
 /// replies of the others for requests.
-constexpr std::uint8_t host_address = 2;
+constexpr std::int32_t host_address =
+    global_parameter_columns[static_cast<std::size_t>(pd1161.id)][row_of(GlobalParameter::serial_host_address)]
+        .default_value;
+static_assert(host_address ==
+              global_parameter_columns[static_cast<std::size_t>(tmcm1110.id)][row_of(GlobalParameter::can_reply_id)]
+                  .default_value);
 
 std::string in_quotes(std::string_view text) {
   return '"' + std::string(text) + '"';
 }
 
-/// "; did you mean "kind"?", or all there are when none is close.
+/// ": did you mean kind?", or all there are when none is close.
 std::string hint(std::string_view wrong, std::span<const std::string_view> known) {
   lang::Suggestion suggestion(wrong);
   for (const std::string_view name : known) suggestion.consider(name);
@@ -281,7 +285,9 @@ class Reader {
     }
     if (module.address) module.address = static_cast<std::uint8_t>(address);
     if (address == host_address) {
-      report(table, "address", "address 2 is the host's: a module there would take the replies of others for requests");
+      report(table, "address",
+             "address " + std::to_string(host_address) +
+                 " is the host's: a module there would take the replies of others for requests");
     }
     const std::string bus =
         module.rs485 ? "rs485 " + std::to_string(*module.rs485) : "can " + std::to_string(*module.can);

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "firmware/spec/lookup.hpp"
 #include "server/module_setup.hpp"
 
 namespace opentmcl::server {
@@ -36,8 +37,10 @@ struct FarmSite::Module {
 
 namespace {
 
-/// Global parameters 66 and 71 of a module fresh from the factory.
-constexpr unsigned default_address = 1;
+/// Of a module fresh from the factory; its identifier on CAN is the same.
+constexpr auto default_address = static_cast<unsigned>(
+    global_parameter_columns[static_cast<std::size_t>(pd1161.id)][row_of(GlobalParameter::serial_address)]
+        .default_value);
 
 Error named(const std::string& name, Error error) {
   error.message = name + ": " + error.message;
