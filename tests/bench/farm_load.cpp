@@ -1,7 +1,7 @@
 // A farm under load: `tmcl farm` with many modules, each with its TCP port and its host, which asks now and then.
 // Prints what the farm takes of a processor and of memory, and how long replies take.
 //
-// usage: farm_load path/to/tmcl [modules] [commands per second, of all] [seconds] [moving|idle]
+// usage: farm_load path/to/tmcl [modules] [commands per second, of all] [seconds] [velocity: internal units, 0 at rest]
 
 #include <netinet/in.h>
 #include <netinet/tcp.h>
@@ -48,7 +48,7 @@ struct Load {
   std::size_t modules = 2000;
   double commands_per_second = 2000;
   double seconds = 10;
-  bool is_moving = true;
+  std::int32_t velocity = 500;  ///< internal units; 0: at rest
 };
 
 /// `tmcl farm` as a child process that ends with this, and what it says of its doors.
@@ -234,15 +234,15 @@ void measure(const Load& load) {
   {
     const FarmProcess farm(load, folder);
     Hosts hosts(farm.ports());
-    if (load.is_moving) hosts.ask_all(Opcode::ror, 500);
-    // The ramps are over and the standby current is set.
-    std::this_thread::sleep_for(load.is_moving ? 2s : 3s);
+    if (load.velocity != 0) hosts.ask_all(Opcode::ror, load.velocity);
+    // Then ramps are over and the standby current is set.
+    std::this_thread::sleep_for(3s);
     const double used = farm.processor_time();
     const auto begin = Clock::now();
     hosts.ask_in_turn(load.commands_per_second, load.seconds);
     const double took = std::chrono::duration<double>(Clock::now() - begin).count();
     const double share = (farm.processor_time() - used) / took * 100;
-    std::printf("%zu modules %s, %.0f commands/s for %.1f s\n", farm.ports().size(), load.is_moving ? "moving" : "idle",
+    std::printf("%zu modules at velocity %d, %.0f commands/s for %.1f s\n", farm.ports().size(), load.velocity,
                 load.commands_per_second, took);
     std::printf("processor   %8.1f %% of a core\n", share);
     std::printf("memory      %8.1f MiB, %.1f KiB a module\n", farm.memory(),
@@ -258,7 +258,7 @@ void measure(const Load& load) {
 
 int main(int argument_count, char** arguments) {
   if (argument_count < 2) {
-    std::fprintf(stderr, "usage: %s path/to/tmcl [modules] [commands/s] [seconds] [moving|idle]\n", arguments[0]);
+    std::fprintf(stderr, "usage: %s path/to/tmcl [modules] [commands/s] [seconds] [velocity]\n", arguments[0]);
     return 64;
   }
   try {
@@ -266,7 +266,7 @@ int main(int argument_count, char** arguments) {
     if (argument_count > 2) load.modules = std::stoul(arguments[2]);
     if (argument_count > 3) load.commands_per_second = std::stod(arguments[3]);
     if (argument_count > 4) load.seconds = std::stod(arguments[4]);
-    if (argument_count > 5) load.is_moving = std::string(arguments[5]) != "idle";
+    if (argument_count > 5) load.velocity = std::stoi(arguments[5]);
     measure(load);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "farm_load: %s\n", error.what());
