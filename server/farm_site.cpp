@@ -138,7 +138,7 @@ Result<void> FarmSite::build_module(std::size_t index) {
 
   VirtualModule::Options board;
   board.can = built.can;
-  if (!wanted.has_stage) board.stage.reset();
+  if (!wanted.has_stage) board.machine = twin::RotaryAxisDimensions{};
   built.module = std::make_unique<VirtualModule>(*wanted.kind, std::move(ports), board);
   for (const auto& wire : built.wires) wire->connect(*built.module);
   if (wanted.rs485) lines_[*wanted.rs485]->line.add(*built.module);
