@@ -6,6 +6,7 @@
 #include <string>
 
 #include "firmware/hal/pins.hpp"
+#include "twin/chip/tmc262_choices.hpp"
 
 namespace opentmcl::conformance {
 
@@ -22,6 +23,12 @@ void set_pin(World& world, Pin pin, std::int64_t level) {
 template <class Pin>
 std::int64_t output(const World& world, Pin pin) {
   return world.outputs() >> static_cast<unsigned>(pin) & 1U;
+}
+
+/// What is measured of the load comes to `value` with the threshold (SGT) that is set now.
+void set_stall_guard_value(World& world, std::int32_t value) {
+  const std::int32_t threshold = tmc262::StallGuardAndCurrent::Threshold::in(world.tmc262().stall_guard_and_current());
+  world.set_load_measurement(value - twin::tmc262_choices::stall_guard_threshold_weight * threshold);
 }
 
 /// "input 3" → 3 for the prefix "input "; -1 when `name` is something else.
@@ -42,7 +49,7 @@ constexpr Control controls[] = {
     {"home switch", [](World& world, std::int64_t value) { world.set_home_switch(value != 0); }},
     {"enable", [](World& world, std::int64_t value) { set_pin(world, hal::InputPin::step_dir_enable, value); }},
     {"analog 0", [](World& world, std::int64_t value) { world.set_analog_input(0, static_cast<std::int32_t>(value)); }},
-    {"load", [](World& world, std::int64_t value) { world.set_load_measurement(static_cast<std::int32_t>(value)); }},
+    {"load", [](World& world, std::int64_t value) { set_stall_guard_value(world, static_cast<std::int32_t>(value)); }},
     {"step input",
      [](World& world, std::int64_t value) {
        for (std::int64_t i = 0; i < (value < 0 ? -value : value); ++i) world.pulse_step_input(value < 0);
