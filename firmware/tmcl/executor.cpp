@@ -141,8 +141,7 @@ Microseconds Executor::turn_behind_instruction(Microseconds now) const {
   if (!machine.is_running()) return never;
   if (!machine.is_waiting()) return now;
   Microseconds next = machine.wait_deadline();
-  const bool has_to_look =
-      machine.waits_for() != ProgramMachine::WaitsFor::time || machine.interrupts.is_active();
+  const bool has_to_look = machine.waits_for() != ProgramMachine::WaitsFor::time || machine.interrupts.is_active();
   if (has_to_look && now + wait_poll_period < next) next = now + wait_poll_period;
   return next;
 }
