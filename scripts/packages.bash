@@ -3,13 +3,13 @@
 
 # shellcheck disable=SC2034  # the lists are read by the scripts that source this file
 packages_to_build=(
-  cmake ninja-build g++ ccache
+  cmake ninja-build g++ ccache python3
   libboost1.81-dev libcli11-dev libfmt-dev libtomlplusplus-dev nlohmann-json3-dev
 )
 # shellcheck disable=SC2034
 packages_to_test=(
   libgtest-dev libgmock-dev librapidcheck-dev
-  python3 python3-serial python3-can python3-jsonschema
+  python3-serial python3-can python3-jsonschema
 )
 # shellcheck disable=SC2034
 packages_to_check=(
