@@ -128,7 +128,7 @@ class VirtualModule::Board {
 VirtualModule::VirtualModule(const ModuleDescription& description, std::vector<hal::Port> ports, Options options,
                              twin::TraceObserver* observer)
     : description_(description),
-      options_(options),
+      options_(std::move(options)),
       world_(observer, {options_.machine, encoder_of(description.id, options_.encoder), options_.motor, options_.load,
                         options_.tables}),
       ports_(std::move(ports)),

@@ -74,7 +74,8 @@ class DriveTrain : private StepListener {
   const Load& load() const { return load_; }
   void set_coil_connected(Tmc262::Coil coil, bool connected);
   void set_short_to_ground(Tmc262::Coil coil, bool shorted);
-  void set_supply_voltage(std::int32_t millivolts);
+  /// @param voltage mV
+  void set_supply_voltage(std::int32_t voltage);
   /// Of the chip. @param celsius °C
   void set_temperature(std::int32_t celsius);
   void set_driver_disable(bool level);
