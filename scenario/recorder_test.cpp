@@ -17,9 +17,6 @@
 namespace opentmcl::scenario {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-
 /// What a scenario with a [record] writes down. @param slice time advances in pieces of this length
 std::string recording_of(std::string_view text, Microseconds slice = 1'000'000) {
   const ScenarioFile file = read_scenario(text);

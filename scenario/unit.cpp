@@ -153,7 +153,7 @@ Parsed<NumberWithUnit> take_number(std::string_view text, std::string_view unit)
     const std::string found = text.empty() ? "nothing" : lang::in_quotes(word.empty() ? text.substr(0, 1) : word);
     return TextError{0, "expected " + expected_number(unit) + ", found " + found};
   }
-  std::size_t length = static_cast<std::size_t>(end - begin);
+  auto length = static_cast<std::size_t>(end - begin);
   std::size_t unit_begin = length;
   while (unit_begin < text.size() && is_space(text[unit_begin])) ++unit_begin;
   const std::string_view rest = text.substr(unit_begin);

@@ -137,13 +137,13 @@ std::optional<Value> ValueReader::time(const toml::node& node) {
   const auto content = node.value_exact<std::string>();
   const Parsed<double> parsed = content ? parse_number(*content, "us") : Parsed<double>(0.0);
   if (const auto* const error = std::get_if<TextError>(&parsed)) {
-    complain(place_within(node, error->offset), "expected a time such as \"2.5 s\" or \"30 ms\"");
+    complain(place_within(node, error->offset), R"(expected a time such as "2.5 s" or "30 ms")");
     return std::nullopt;
   }
   const double microseconds = std::get<double>(parsed);
   const bool has_unit = content && !content->empty() && (content->back() < '0' || content->back() > '9');
   if (!has_unit || microseconds < 0 || microseconds > longest_time) {
-    complain(place_of(node), "expected a time such as \"2.5 s\" or \"30 ms\"");
+    complain(place_of(node), R"(expected a time such as "2.5 s" or "30 ms")");
     return std::nullopt;
   }
   return Value{.time = static_cast<Microseconds>(std::llround(microseconds))};
@@ -182,6 +182,7 @@ std::vector<Assignment> ValueReader::assignments(const toml::table& table) {
     return std::tie(left.first.line, left.first.column) < std::tie(right.first.line, right.first.column);
   });
   std::vector<Assignment> result;
+  result.reserve(found.size());
   for (const auto& [place, assignment] : found) result.push_back(assignment);
   return result;
 }

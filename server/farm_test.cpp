@@ -49,7 +49,7 @@ class Worker final : public Simulated {
 
 struct FarmTest : testing::Test {
   Farm make(std::size_t count, Farm::Options options = {}) {
-    return Farm(events, count, options, [this] { return wall; });
+    return {events, count, options, [this] { return wall; }};
   }
   /// Lets the farm have its turns until the wall clock says `end`.
   void run_until(Farm& farm, WallTime end) {

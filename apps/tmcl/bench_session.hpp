@@ -51,7 +51,7 @@ class BenchSession {
  private:
   explicit BenchSession(Options options) : options_(std::move(options)) {}
 
-  void report(const scenario::Report& report) const;
+  void report(const scenario::Report& what) const;
 
   struct CloseFile {
     void operator()(std::FILE* file) const { std::fclose(file); }

@@ -25,8 +25,6 @@
 namespace opentmcl::app {
 
 namespace asio = boost::asio;
-using client::Error;
-using client::ErrorKind;
 using client::Result;
 
 namespace {

@@ -35,7 +35,7 @@ class ShaftSurroundings {
 
 /// The chips jump over time exactly, however it is cut. The motor is brought up to date at the ends of spans, and these
 /// do not depend on the caller: docs/decisions/0052-spans.md says where they are.
-class DriveTrain : private StepListener {
+class DriveTrain final : private StepListener {
  public:
   struct Options {
     /// Nothing: an ideal motor, whose rotor is always where the field is.

@@ -17,7 +17,7 @@ namespace opentmcl::twin {
 
 /// STEP and DIR of motor 1 go to the TMC262; both chips run on the same clock of one tick. Time moves only by
 /// advance_to(), and how it is cut changes nothing: the same changes at the same ticks give the same trace.
-class World : private ShaftSurroundings {
+class World final : private ShaftSurroundings {
  public:
   static constexpr unsigned analog_channel_count = 4;
 
