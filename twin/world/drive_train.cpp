@@ -34,10 +34,18 @@ bool is_write(std::uint32_t datagram) {
   return !tmc429::Datagram::Read::is_set({datagram});
 }
 
-bool steps_are_single_edges(const Tmc429& chip) {
+tmc429::Word<tmc429::InterfaceConfiguration> interface_configuration(const Tmc429& chip) {
   using tmc429::InterfaceConfiguration;
-  return InterfaceConfiguration::StepOnBothEdges::is_set(
-      tmc429::word_in<InterfaceConfiguration>(chip.read(tmc429::read_datagram<InterfaceConfiguration>())));
+  return tmc429::word_in<InterfaceConfiguration>(chip.read(tmc429::read_datagram<InterfaceConfiguration>()));
+}
+
+/// By which the field moves while the motion controller makes one step, negative with DIR inverted.
+double microsteps_a_step(const Tmc429& motion_controller, std::int32_t microsteps_a_pulse) {
+  using tmc429::InterfaceConfiguration;
+  const auto configuration = interface_configuration(motion_controller);
+  const double pulses = InterfaceConfiguration::StepOnBothEdges::is_set(configuration) ? 0.5 : 1.0;
+  return InterfaceConfiguration::InvertDirection::is_set(configuration) ? -pulses * microsteps_a_pulse
+                                                                        : pulses * microsteps_a_pulse;
 }
 
 bool spi_sets_currents(const Tmc262& chip) {
@@ -144,7 +152,7 @@ bool DriveTrain::is_clear_of_events(Tick span) const {
 
 /// An ideal rotor follows each run of steps at once. Where one of them may change a switch, they come one by one.
 Tick DriveTrain::end_of_ideal_span() {
-  const double step = std::max(field_.drive().microsteps_a_step, 1.0);
+  const double step = std::max(std::fabs(field_.drive().microsteps_a_step), 1.0);
   const std::int64_t distance = std::min(surroundings_.distance_to_event(), ideal_rotor_.distance_to_end());
   const auto free_steps = static_cast<std::uint64_t>(static_cast<double>(distance) / step);
   const Tick clear = free_steps == 0 ? 0 : tmc429_->clocks_for_steps(free_steps, driven_motor);
@@ -174,7 +182,7 @@ FieldTracker::Drive DriveTrain::drive() const {
           .energised = tmc262_.bridge_on(Coil::a) || tmc262_.bridge_on(Coil::b),
           .coil_a_connected = conducts(Coil::a),
           .coil_b_connected = conducts(Coil::b),
-          .microsteps_a_step = microsteps_a_pulse * (steps_are_single_edges(*tmc429_) ? 0.5 : 1.0),
+          .microsteps_a_step = microsteps_a_step(*tmc429_, microsteps_a_pulse),
           .is_coarse = microsteps_a_pulse > coarsest_smooth_step && !tmc262_.interpolates()};
 }
 

@@ -22,7 +22,7 @@ class FieldTracker {
     bool energised = false;        ///< some bridge is on
     bool coil_a_connected = true;  ///< that of the sine of MSTEP
     bool coil_b_connected = true;  ///< that of its cosine
-    double microsteps_a_step = 1;  ///< of 1/256 full step, for one step of the motion controller
+    double microsteps_a_step = 1;  ///< of 1/256 full step, for a step of the motion controller upwards
     bool is_coarse = false;        ///< single steps are to be told to the motor
 
     friend bool operator==(const Drive&, const Drive&) = default;

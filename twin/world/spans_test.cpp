@@ -55,5 +55,18 @@ RC_GTEST_PROP(Spans, DoNotDependOnHowTimeIsCutOrWhoLooks, ()) {
   RC_ASSERT((Session{seed, slice, true}.run()) == whole);
 }
 
+TEST(Spans, MoveTheFieldTheWayOfAnInvertedDirection) {
+  using tmc429::InterfaceConfiguration;
+  World world(nullptr, bench_machine());
+  start(world, 2);
+  write(world, InterfaceConfiguration::EnableStepDir::set | InterfaceConfiguration::EnableRightSwitches::set |
+                   InterfaceConfiguration::InvertDirection::set);
+  set<tmc429::TargetPosition>(world, 30'000);
+  world.advance_to(300 * millisecond);
+  EXPECT_LT(world.motor()->state().velocity, -1.0);
+  EXPECT_LT(world.field().velocity, -1.0);
+  EXPECT_EQ(world.motor()->regime(), Regime::locked);
+}
+
 }  // namespace
 }  // namespace opentmcl::twin
