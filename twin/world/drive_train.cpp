@@ -258,6 +258,8 @@ void DriveTrain::set_coil_connected(Tmc262::Coil coil, bool connected) {
 }
 
 void DriveTrain::set_short_to_ground(Tmc262::Coil coil, bool shorted) {
+  // The motor comes up to date under the conditions before: the short changes when the span has to end.
+  commit();
   tmc262_.set_short_to_ground(coil, shorted);
   after_change();
   begin_span();

@@ -61,11 +61,28 @@ TEST(Spans, MoveTheFieldTheWayOfAnInvertedDirection) {
   start(world, 2);
   write(world, InterfaceConfiguration::EnableStepDir::set | InterfaceConfiguration::EnableRightSwitches::set |
                    InterfaceConfiguration::InvertDirection::set);
-  set<tmc429::TargetPosition>(world, 30'000);
-  world.advance_to(300 * millisecond);
+  world.transfer_tmc262(tmc262::datagram(tmc262::StallGuardAndCurrent::CurrentScale::of(31)));
+  set<tmc429::MaximumAcceleration>(world, 20);
+  set<tmc429::TargetPosition>(world, 300'000);
+  world.advance_to(1000 * millisecond);
   EXPECT_LT(world.motor()->state().velocity, -1.0);
   EXPECT_LT(world.field().velocity, -1.0);
   EXPECT_EQ(world.motor()->regime(), Regime::locked);
+}
+
+/// A short does not take the time before it from the motor.
+TEST(Spans, EndWhereAShortToGroundBegins) {
+  const auto angle = [](bool shorted) {
+    World world(nullptr, bench_machine());
+    start(world, 2);
+    world.transfer_tmc262(tmc262::datagram(tmc262::StallGuardAndCurrent::CurrentScale::of(31)));
+    set<tmc429::MaximumAcceleration>(world, 20);
+    set<tmc429::TargetPosition>(world, 300'000);
+    world.advance_to(1005 * millisecond);
+    if (shorted) world.set_short_to_ground(Tmc262::Coil::a, true);
+    return world.rotor_angle();
+  };
+  EXPECT_EQ(angle(true), angle(false));
 }
 
 }  // namespace
