@@ -91,8 +91,12 @@ class Tmc262 {
   bool bridges_on() const { return bridge_a_.on(clock_) && bridge_b_.on(clock_); }
   bool bridge_on(Coil coil) const { return bridge(coil).on(clock_); }
   bool coil_connected(Coil coil) const { return bridge(coil).connected(); }
+  bool shorted_to_ground(Coil coil) const { return bridge(coil).shorted(); }
   /// When a bridge will be shut off by a short if nothing changes, later than clock().
   std::optional<std::uint64_t> next_shut_off() const { return shut_off_after(clock_); }
+
+  /// What the next word will be answered.
+  tmc262::Word<tmc262::Reply> reply() const;
 
   CoilPair coil_currents() const;
   /// Coil current in mA at the peak of the sine: scale in force, sense voltage and resistor. Also what it would be with
@@ -130,7 +134,6 @@ class Tmc262 {
   friend bool operator==(const Tmc262&, const Tmc262&) = default;
 
  private:
-  tmc262::Word<tmc262::Reply> reply() const;
   void write(std::uint32_t word);
   void apply_changes(const Tmc262RegisterFile& before);
   void update_bridges();

@@ -32,6 +32,7 @@ class Tmc262Bridge {
   /// A current can flow, where a coil is connected.
   bool on(std::uint64_t clock) const;
   bool connected() const { return connected_; }
+  bool shorted() const { return shorted_; }
   /// S2GA or S2GB: the third detected short has shut it off.
   bool shut_off(std::uint64_t clock) const { return detected_shorts(clock) >= shorts_to_shut_off; }
   /// When a short that lasts will shut it off, if it will.

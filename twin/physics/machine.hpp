@@ -57,8 +57,11 @@ class Machine {
   void break_wire(MachineSwitch name, bool broken) { state_.switches[index(name)].wire_broken = broken; }
 
   bool wire_broken(MachineSwitch name) const { return state_.switches[index(name)].wire_broken; }
+  bool pressed(MachineSwitch name) const { return state_.switches[index(name)].held_by_hand; }
 
   // ---- Switches
+
+  bool has_switch(MachineSwitch name) const { return switches_[index(name)].has_value(); }
 
   /// Whether the contact is open, as its input sees it. Where a machine lacks a switch, a wire to ground is in its
   /// place.
@@ -85,6 +88,8 @@ class Machine {
 
   /// Angle of the driven side, behind the backlash, as a shaft angle: for an encoder that is mounted there.
   std::int64_t load_side_angle() const { return turned(state_.driven); }
+  /// What it would be with the shaft at `angle`.
+  std::int64_t load_side_angle_at(std::int64_t angle) const { return turned(driven_by(angle)); }
 
   // ---- What the motor feels, all at its shaft
 

@@ -39,6 +39,7 @@ class MotorShaft {
   const MotorData& motor() const { return motor_; }
   const Load& load() const { return load_; }
   double supply() const { return supply_; }
+  double ambient() const { return ambient_; }
 
   /// Electrical turns and turns per second of the rotor at now().
   struct State {

@@ -139,6 +139,11 @@ void ShaftEncoder::break_wire(EncoderChannel channel, bool broken) {
   }
 }
 
+bool ShaftEncoder::wire_broken(EncoderChannel channel) const {
+  if (channel == EncoderChannel::a) return state_.a_broken;
+  return channel == EncoderChannel::b ? state_.b_broken : state_.n_broken;
+}
+
 // ---- The null position
 
 bool ShaftEncoder::is_near_null(std::int64_t place) const {

@@ -83,6 +83,7 @@ class ShaftEncoder {
 
   /// A broken wire leaves the channel high, for its pull-up. Incremental encoders only.
   void break_wire(EncoderChannel channel, bool broken);
+  bool wire_broken(EncoderChannel channel) const;
 
   /// How far from `angle` a null position begins or ends.
   EventDistance null_distance(std::int64_t angle) const;

@@ -270,6 +270,13 @@ void DriveTrain::set_temperature(std::int32_t celsius) {
   after_change();
 }
 
+void DriveTrain::set_ambient_temperature(double celsius) {
+  if (!motor_ || motor_->ambient() == celsius) return;
+  commit();
+  motor_->set_ambient(celsius);
+  begin_span();
+}
+
 void DriveTrain::set_driver_disable(bool level) {
   tmc262_.set_enable_not(level);
   after_change();
@@ -309,6 +316,28 @@ void DriveTrain::turn_ideal_rotor(Tick tick) {
   const std::int64_t before = ideal_rotor_.angle();
   ideal_rotor_.follow(tmc262_.microstep_position());
   if (ideal_rotor_.angle() != before) surroundings_.shaft_turned(tick);
+}
+
+std::optional<MotorShaft> DriveTrain::present_motor() const {
+  std::optional<MotorShaft> present = motor_;
+  if (present && present->now() < now_) present->advance_to(now_, field());
+  return present;
+}
+
+Field DriveTrain::present_field() const {
+  Field present = field();
+  if (!motor_) {
+    // An ideal rotor follows each run of steps, so nobody asks how the field has moved since the span began.
+    present.angle = electrical_turns_at(field_.position());
+  } else if (!present.steps.empty()) {
+    present.angle = present.steps.back().angle;
+  } else {
+    const double seconds = static_cast<double>(now_ - field_.begun()) * seconds_per_tick;
+    present.angle = present.angle_after(seconds);
+    present.velocity = present.velocity_after(seconds);
+  }
+  present.steps = {};
+  return present;
 }
 
 std::int64_t DriveTrain::shaft_angle() const {

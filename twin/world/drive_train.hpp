@@ -78,10 +78,14 @@ class DriveTrain final : private StepListener {
   void set_supply_voltage(std::int32_t voltage);
   /// Of the chip. @param celsius °C
   void set_temperature(std::int32_t celsius);
+  /// Of the motor. @param celsius °C
+  void set_ambient_temperature(double celsius);
   void set_driver_disable(bool level);
   void set_load_measurement(std::int32_t value);
   /// A pulse on STEP that does not come from the TMC429.
   void pulse_step(bool direction);
+  /// A contact is about to chatter: what the surroundings say of their events is new.
+  void expect_other_events() { commit(); }
 
   /// Since power-on of the world, in microsteps of 1/256 full step, rounded down.
   std::int64_t shaft_angle() const;
@@ -89,6 +93,12 @@ class DriveTrain final : private StepListener {
   std::int64_t committed_shaft_angle() const;
   const std::optional<MotorShaft>& motor() const { return motor_; }
   Field field() const { return field_.until(now_, tmc429_->motion()); }
+
+  // As it is at this very tick, also within a span. Looking changes nothing.
+  /// Nothing: an ideal motor.
+  std::optional<MotorShaft> present_motor() const;
+  /// A field that begins now.
+  Field present_field() const;
 
  private:
   void steps(const StepRun& run) override;

@@ -114,6 +114,17 @@ void World::set_home_switch(bool open) {
   update_switches(now());
 }
 
+void World::press_switch(MachineSwitch name, bool held) {
+  machine_.press(name, held, now());
+  update_switches(now());
+  drive_train_.expect_other_events();
+}
+
+void World::break_encoder_wire(EncoderChannel channel, bool broken) {
+  encoder().break_wire(channel, broken);
+  report_encoder(now());
+}
+
 void World::set_analog_input(unsigned channel, std::int32_t value) {
   analog_inputs_.at(channel) = value;
 }
@@ -129,7 +140,6 @@ void World::set_supply_voltage(std::int32_t millivolts) {
 }
 
 void World::set_load_measurement(std::int32_t value) {
-  report(now(), "load_measurement", value);
   drive_train_.set_load_measurement(value);
 }
 
@@ -150,7 +160,7 @@ void World::shaft_turned(Tick tick) {
   if (machine_.follow(angle, tick) || chatters) update_switches(tick);
   encoder_.follow(encoder_.properties().on_load_side ? machine_.load_side_angle() : angle);
   if (observer_ == nullptr) return;
-  if (encoder_.count() != traced_count_) report(tick, "encoder", traced_count_ = encoder_.count());
+  report_encoder(tick);
   if (machine_.place_unit() == PlaceUnit::micrometre && machine_.place() != traced_place_)
     report(tick, "stage", traced_place_ = machine_.place());
 }
@@ -161,8 +171,12 @@ std::int64_t World::distance_to_event() const {
 }
 
 ShaftEncoder& World::encoder() {
-  if (!encoder_.properties().on_load_side) encoder_.follow(rotor_angle());
+  encoder_.follow(encoder_angle());
   return encoder_;
+}
+
+void World::report_encoder(Tick tick) {
+  if (encoder_.count() != traced_count_) report(tick, "encoder", traced_count_ = encoder_.count());
 }
 
 /// A closed contact pulls its input to ground, a pull-up resistor lifts that of an open one.

@@ -85,14 +85,20 @@ class World final : private ShaftSurroundings {
   ShaftEncoder& encoder();
   /// As it was at the end of the last span.
   const ShaftEncoder& encoder() const { return encoder_; }
+  /// What the microcontroller would read now.
+  std::int64_t encoder_count() const { return encoder_.count_at(encoder_angle()); }
+  bool encoder_near_null() const { return encoder_.near_null_at(encoder_angle()); }
 
   // ---- What a person at the bench can change
 
-  /// A finger on a switch, or a wire cut: true opens its contact, so that the input goes high; false leaves it to the
-  /// machine.
+  /// The wire of a switch is cut: true makes its input high; false leaves it to the machine.
   void set_left_switch(bool open);
   void set_right_switch(bool open);
   void set_home_switch(bool open);
+  /// A finger holds a switch, as the slider would, or leaves it again. A machine that lacks it has none to press.
+  void press_switch(MachineSwitch name, bool held);
+  /// The wire of a channel is cut, or mended. Incremental encoders only.
+  void break_encoder_wire(EncoderChannel channel, bool broken);
   /// Converter value, `channel` 0…3; the board says what each channel is. 0 at the start.
   std::int32_t analog_input(unsigned channel) const { return analog_inputs_.at(channel); }
   void set_analog_input(unsigned channel, std::int32_t value);
@@ -108,6 +114,8 @@ class World final : private ShaftSurroundings {
   /// Temperature of the board and of the driver in °C, 25 at the start.
   std::int32_t temperature() const { return temperature_; }
   void set_temperature(std::int32_t celsius);
+  /// Temperature around the motor in °C, to which its winding cools; 25 at the start. An ideal motor has none.
+  void set_ambient_temperature(double celsius) { drive_train_.set_ambient_temperature(celsius); }
 
   /// Rises with every change of an input or the supply from outside: the firmware has to look at them.
   std::uint64_t input_changes() const { return input_changes_; }
@@ -128,6 +136,11 @@ class World final : private ShaftSurroundings {
   const std::optional<MotorShaft>& motor() const { return drive_train_.motor(); }
   /// What the driver makes the motor's coils carry.
   Field field() const { return drive_train_.field(); }
+  /// motor() is as it was at the end of the last span, field() begins there. These two are those of the present.
+  std::optional<MotorShaft> present_motor() const { return drive_train_.present_motor(); }
+  Field present_field() const { return drive_train_.present_field(); }
+  /// Where the slider or table stands now.
+  std::int64_t place() const { return machine_.place_at(rotor_angle()); }
   const Machine& machine() const { return machine_; }
   const Tmc429& tmc429() const { return drive_train_.tmc429(); }
   const Tmc262& tmc262() const { return drive_train_.tmc262(); }
@@ -142,6 +155,10 @@ class World final : private ShaftSurroundings {
   Tick shortest_event() const override { return machine_.shortest_chatter(); }
   void report(Tick tick, std::string_view signal, std::int64_t value) override;
   void update_switches(Tick tick);
+  void report_encoder(Tick tick);
+  std::int64_t encoder_angle() const {
+    return encoder_.properties().on_load_side ? machine_.load_side_angle_at(rotor_angle()) : rotor_angle();
+  }
 
   TraceObserver* observer_;
   Machine machine_;
