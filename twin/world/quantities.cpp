@@ -5,18 +5,17 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <variant>
 
-#include "twin/physics/shaft.hpp"
+#include "twin/world/machine_quantities.hpp"
+#include "twin/world/motor_quantities.hpp"
 
 namespace opentmcl::twin {
 namespace {
 
 using Kind = Quantity::Kind;
 
-constexpr double millivolts = 1000;     // in 1 V
-constexpr double micrometres = 1000;    // in 1 mm
-constexpr double degrees_a_turn = 360;  // of the shaft
+constexpr double millivolts = 1000;    // in 1 V
+constexpr double milliamperes = 1000;  // in 1 A
 
 std::int32_t rounded(double value) {
   return static_cast<std::int32_t>(std::lround(value));
@@ -81,9 +80,16 @@ constexpr Quantity register_row(std::string_view name, std::string_view descript
   return {.name = name, .unit = "", .description = description, .kind = Kind::whole, .read = register_of<Register>};
 }
 
-// ---- The table
+template <class Flag>
+constexpr Quantity flag_row(std::string_view name, std::string_view description) {
+  return {.name = name, .unit = "", .description = description, .kind = Kind::truth, .read = [](const World& world) {
+            return Flag::is_set(world.tmc262().reply()) ? 1.0 : 0.0;
+          }};
+}
 
-constexpr Quantity rows[] = {
+// ---- The tables
+
+constexpr Quantity supply_rows[] = {
     // ---- Supply and surroundings
     {.name = "supply_voltage",
      .unit = "V",
@@ -101,101 +107,15 @@ constexpr Quantity rows[] = {
      .highest = 200,
      .read = [](const World& world) { return static_cast<double>(world.temperature()); },
      .write = [](World& world, double value) { world.set_temperature(rounded(value)); }},
-    // ---- Motor and machine
-    {.name = "load_measurement",
-     .unit = "",
-     .description = "What stallGuard2 measures of the load: 0 is a stall, 1023 no load.",
-     .kind = Kind::whole,
-     .trace_scale = 1,
-     .highest = tmc262::maximum_stall_guard_value,
-     .read = [](const World& world) { return static_cast<double>(world.load_measurement()); },
-     .write = [](World& world, double value) { world.set_load_measurement(rounded(value)); }},
-    {.name = "rotor.angle",
-     .unit = "deg",
-     .description = "Angle of the shaft since power-on, over all turns.",
-     .read =
-         [](const World& world) {
-           return static_cast<double>(world.rotor_angle()) * degrees_a_turn / static_cast<double>(microsteps_per_turn);
-         }},
-    {.name = "rotor.microsteps",
-     .unit = "",
-     .description = "The same angle in microsteps of 1/256 full step.",
-     .kind = Kind::whole,
-     .read = [](const World& world) { return static_cast<double>(world.rotor_angle()); }},
-    {.name = "stage",
-     .unit = "mm",
-     .description = "Place of the slider from the middle of its travel.",
-     .trace_scale = micrometres,
-     .read = [](const World& world) { return static_cast<double>(world.machine().place()) / micrometres; },
-     .exists =
-         [](const World& world) {
-           return std::holds_alternative<LinearStageDimensions>(world.machine().dimensions());
-         }},
-    {.name = "table",
-     .unit = "deg",
-     .description = "Angle of the table behind its gear, over all turns.",
-     .read = [](const World& world) { return static_cast<double>(world.machine().place()) / 1000; },
-     .exists =
-         [](const World& world) {
-           return std::holds_alternative<CircularAxisDimensions>(world.machine().dimensions());
-         }},
-    {.name = "encoder",
-     .unit = "",
-     .description = "Counts of the encoder on the shaft since power-on, 1024 a turn.",
-     .kind = Kind::whole,
-     .trace_scale = 1,
-     .read = [](const World& world) { return static_cast<double>(world.encoder().count()); }},
-    {.name = "encoder.near_null",
-     .unit = "",
-     .description = "The shaft stands within 5 counts of the encoder's null position.",
-     .kind = Kind::truth,
-     .read = [](const World& world) { return world.encoder().near_null() ? 1.0 : 0.0; }},
-    // ---- Switches
-    {.name = "left_switch",
-     .unit = "",
-     .description = "Level at the input for the left limit switch; high while the contact is open.",
-     .kind = Kind::truth,
-     .trace_scale = 1,
-     .read = [](const World& world) { return world.left_switch() ? 1.0 : 0.0; }},
-    {.name = "left_switch.held_open",
-     .unit = "",
-     .description = "A finger on the left limit switch, or its wire cut.",
-     .kind = Kind::truth,
-     .highest = 1,
-     .read = [](const World& world) { return world.machine().wire_broken(MachineSwitch::left) ? 1.0 : 0.0; },
-     .write = [](World& world, double value) { world.set_left_switch(value != 0); }},
-    {.name = "right_switch",
-     .unit = "",
-     .description = "Level at the input for the right limit switch; high while the contact is open.",
-     .kind = Kind::truth,
-     .trace_scale = 1,
-     .read = [](const World& world) { return world.right_switch() ? 1.0 : 0.0; }},
-    {.name = "right_switch.held_open",
-     .unit = "",
-     .description = "A finger on the right limit switch, or its wire cut.",
-     .kind = Kind::truth,
-     .highest = 1,
-     .read = [](const World& world) { return world.machine().wire_broken(MachineSwitch::right) ? 1.0 : 0.0; },
-     .write = [](World& world, double value) { world.set_right_switch(value != 0); }},
-    {.name = "home_switch",
-     .unit = "",
-     .description = "Level at the input for the home switch; high while the contact is open.",
-     .kind = Kind::truth,
-     .trace_scale = 1,
-     .read = [](const World& world) { return world.home_switch() ? 1.0 : 0.0; }},
-    {.name = "home_switch.held_open",
-     .unit = "",
-     .description = "A finger on the home switch, or its wire cut.",
-     .kind = Kind::truth,
-     .highest = 1,
-     .read = [](const World& world) { return world.machine().wire_broken(MachineSwitch::home) ? 1.0 : 0.0; },
-     .write = [](World& world, double value) { world.set_home_switch(value != 0); }},
+};
+
+constexpr Quantity module_rows[] = {
+    // ---- Inputs and outputs
     {.name = "pull_ups",
      .unit = "",
      .description = "The pull-up resistors of the three switch inputs are on.",
      .kind = Kind::truth,
      .read = [](const World& world) { return world.pull_ups() ? 1.0 : 0.0; }},
-    // ---- Inputs and outputs
     input_row<0>("input.0", "Level at general purpose input IN0 (TMCM-1110: AIN_0 as a digital input)."),
     input_row<1>("input.1", "Level at general purpose input IN1."),
     input_row<2>("input.2", "Level at general purpose input IN2."),
@@ -268,19 +188,38 @@ constexpr Quantity rows[] = {
      .read = [](const World& world) { return static_cast<double>(world.tmc262().microstep_position()); }},
     {.name = "tmc262.current_scale",
      .unit = "",
-     .description = "The coils carry (n + 1) / 32 of the full-scale current: SE, 0 to 31.",
+     .description = "coolStep lets the coils carry (n + 1) / 32 of the full-scale current: SE, 0 to 31.",
      .kind = Kind::whole,
      .read = [](const World& world) { return static_cast<double>(world.tmc262().current_scale()); }},
+    {.name = "tmc262.current_amplitude",
+     .unit = "A",
+     .description = "Peak of the sine that the coils are to carry, also while the bridges are off.",
+     .read = [](const World& world) { return world.tmc262().current_amplitude() / milliamperes; }},
     {.name = "tmc262.bridges_on",
      .unit = "",
      .description = "The driver's bridges can carry current.",
      .kind = Kind::truth,
      .read = [](const World& world) { return world.tmc262().bridges_on() ? 1.0 : 0.0; }},
+    {.name = "tmc262.stall_guard_value",
+     .unit = "",
+     .description = "The latest value of stallGuard2, SGT included: SG, 0 (much load) to 1023.",
+     .kind = Kind::whole,
+     .read = [](const World& world) { return static_cast<double>(world.tmc262().stall_guard_value()); }},
     {.name = "tmc262.stall_guard_output",
      .unit = "",
      .description = "Level of SG_TST: the last stallGuard2 measurement was 0.",
      .kind = Kind::truth,
      .read = [](const World& world) { return world.stall_guard_output() ? 1.0 : 0.0; }},
+    flag_row<tmc262::Reply::OpenLoadA>("tmc262.open_load_a", "The driver misses coil A: OLA."),
+    flag_row<tmc262::Reply::OpenLoadB>("tmc262.open_load_b", "The driver misses coil B: OLB."),
+    flag_row<tmc262::Reply::ShortToGroundA>("tmc262.short_to_ground_a",
+                                            "A short has switched the bridge of coil A off: S2GA."),
+    flag_row<tmc262::Reply::ShortToGroundB>("tmc262.short_to_ground_b",
+                                            "A short has switched the bridge of coil B off: S2GB."),
+    flag_row<tmc262::Reply::OvertemperatureWarning>("tmc262.overtemperature_warning", "The driver is hot: OTPW."),
+    flag_row<tmc262::Reply::Overtemperature>("tmc262.overtemperature",
+                                             "The driver is too hot and has switched its bridges off: OT."),
+    flag_row<tmc262::Reply::Standstill>("tmc262.standstill", "No step has come for 2^20 clocks: STST."),
     {.name = "tmc262.unmodelled_writes",
      .unit = "",
      .description = "Writes to bits that the model of the TMC262 gives no meaning.",
@@ -298,6 +237,19 @@ constexpr Quantity rows[] = {
      .kind = Kind::whole,
      .read = [](const World& world) { return static_cast<double>(world.eeprom().bytes_written()); }},
 };
+
+template <std::size_t... sizes>
+constexpr auto joined(const Quantity (&... tables)[sizes]) {
+  std::array<Quantity, (sizes + ...)> all{};
+  std::size_t end = 0;
+  const auto append = [&all, &end](const auto& table) {
+    for (const Quantity& row : table) all[end++] = row;
+  };
+  (append(tables), ...);
+  return all;
+}
+
+constexpr auto rows = joined(supply_rows, motor_rows::rows, machine_rows::rows, module_rows);
 
 constexpr TraceOnlySignal trace_only[] = {
     {"power", "0 when the supply is taken away, 1 when it is back."},
@@ -360,9 +312,16 @@ const Quantity* find_quantity(std::string_view name) {
   return nullptr;
 }
 
+std::optional<std::string> absence(const Quantity& quantity, const World& world) {
+  if (quantity.exists_in(world)) return std::nullopt;
+  return quantity.needs_motor && !world.motor() ? "does not exist with an ideal motor"
+                                                : "does not exist on this machine";
+}
+
 std::optional<std::string> refusal(const Quantity& quantity, const World& world, double value) {
-  if (!quantity.exists_in(world)) return "does not exist on this machine";
+  if (auto reason = absence(quantity, world)) return reason;
   if (!quantity.can_be_written()) return "can only be looked at";
+  if (quantity.set_by_motor && world.motor()) return "can only be set with an ideal motor";
   if (!(value >= quantity.lowest && value <= quantity.highest)) {
     const std::string unit = quantity.unit.empty() ? "" : ' ' + std::string(quantity.unit);
     return "goes from " + text_of(quantity.lowest) + " to " + text_of(quantity.highest) + unit;

@@ -34,16 +34,23 @@ struct Quantity {
   Kind kind = Kind::real;
   /// What the trace says for 1 in `unit`: 1000 where it counts mV. 0 for a quantity that is not in the trace.
   double trace_scale = 0;
+  /// Whether it is one of a motor with a load; an ideal motor has none.
+  bool needs_motor = false;
+  /// Whether such a motor sets it by itself, so that it can only be written with an ideal one.
+  bool set_by_motor = false;
   /// What can be written; without meaning where nothing can.
   double lowest = 0;
   double highest = 0;
+  /// The value at this very tick; looking changes nothing. Call it only where exists_in().
   double (*read)(const World& world);
   /// nullptr: cannot be changed. Call it only where refusal() has no objection.
   void (*write)(World& world, double value) = nullptr;
   /// Whether there is such a thing on this machine; nullptr: always.
   bool (*exists)(const World& world) = nullptr;
 
-  bool exists_in(const World& world) const { return exists == nullptr || exists(world); }
+  bool exists_in(const World& world) const {
+    return (!needs_motor || world.motor()) && (exists == nullptr || exists(world));
+  }
   constexpr bool can_be_written() const { return write != nullptr; }
 };
 
@@ -59,6 +66,9 @@ std::span<const TraceOnlySignal> trace_only_signals();
 
 /// nullptr when nothing has this name.
 const Quantity* find_quantity(std::string_view name);
+
+/// Why it does not exist in this world, as the end of a sentence that begins with its name. Nothing if it does.
+std::optional<std::string> absence(const Quantity& quantity, const World& world);
 
 /// Why `value`, in the quantity's unit, cannot be written, as the end of a sentence that begins with its name: "can
 /// only be looked at". Nothing if it can.
