@@ -1,4 +1,4 @@
-// The keys of [machine] and [encoder].
+// The keys of [machine], [encoder] and [motor].
 #include <cmath>
 
 #include "scenario/section.hpp"
@@ -11,6 +11,7 @@ using Stage = twin::LinearStageDimensions;
 using Table = twin::CircularAxisDimensions;
 using Shaft = twin::RotaryAxisDimensions;
 using Encoder = twin::EncoderProperties;
+using Motor = twin::MotorData;
 
 constexpr double micrometres_in_a_millimetre = 1000;
 constexpr double millidegrees_in_a_degree = 1000;
@@ -193,7 +194,31 @@ constexpr Key<Encoder> encoder[] = {
                     [](Encoder& target, Value&& value) { target.second_harmonic.phase = microsteps_of(value.number); }),
 };
 
+/// With the ranges of twin/motors/motor_table.py.
+constexpr Key<Motor> motor[] = {
+    number<Motor>("rated_current", "A", {0.05, 20}, "In each coil of a moving motor, rms.",
+                  store_real<&Motor::rated_current>),
+    number<Motor>("winding_resistance", "Ohm", {0.02, 200}, "Of one coil at 20 degC.",
+                  store_real<&Motor::winding_resistance>),
+    number<Motor>("winding_inductance", "H", {1e-5, 0.5}, "Of one coil.", store_real<&Motor::winding_inductance>),
+    number<Motor>("holding_torque", "Nm", {0.005, 50}, "At the rated current.", store_real<&Motor::holding_torque>),
+    number<Motor>("detent_torque", "Nm", {0, 5}, "Amplitude without current.", store_real<&Motor::detent_torque>),
+    number<Motor>("rotor_inertia", "kg m2", {1e-8, 1e-2}, "Of the rotor alone.", store_real<&Motor::rotor_inertia>),
+    number<Motor>("viscous_friction", "Nm s", {0, 0.1}, "Of the bearings: torque for 1 rad/s.",
+                  store_real<&Motor::viscous_friction>),
+    number<Motor>("coulomb_friction", "Nm", {0, 1}, "Of the bearings, the same at every speed.",
+                  store_real<&Motor::coulomb_friction>),
+    number<Motor>("eddy_damping", "Nm s", {0, 0.1}, "Against the speed of the rotor relative to the field.",
+                  store_real<&Motor::eddy_damping>),
+    number<Motor>("winding_time_constant", "s", {10, 1e5}, "Of the winding's temperature.",
+                  store_real<&Motor::winding_time_constant>),
+};
+
 }  // namespace
+
+std::span<const Key<Motor>> motor_keys() {
+  return motor;
+}
 
 std::span<const Key<Stage>> linear_stage_keys() {
   return linear_stage;

@@ -114,8 +114,8 @@ void Recorder::forget_until(twin::Tick tick) {
 
 std::optional<std::string> objection_to_signal(std::string_view name, const twin::World& world) {
   if (const twin::Quantity* const quantity = twin::find_quantity(name)) {
-    if (quantity->exists_in(world)) return std::nullopt;
-    return std::string(name) + " does not exist on this machine";
+    const auto reason = twin::absence(*quantity, world);
+    return reason ? std::optional(std::string(name) + ' ' + *reason) : std::nullopt;
   }
   lang::Suggestion suggestion(name);
   for (const twin::TraceOnlySignal& signal : twin::trace_only_signals()) {

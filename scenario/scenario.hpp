@@ -80,7 +80,9 @@ struct Scenario {
   Microseconds duration = 0;  ///< 0: no end
   twin::MachineDimensions machine = twin::LinearStageDimensions{};
   twin::EncoderProperties encoder;  ///< its kind is that of the module
-  std::vector<Assignment> initial;
+  /// Nothing: an ideal one, whose rotor is always where the field is.
+  std::optional<twin::MotorData> motor = twin::motors().front();
+  std::vector<Assignment> initial;  ///< the load first
   Recording recording;
   std::vector<Event> events;
   std::vector<Expectation> expectations;

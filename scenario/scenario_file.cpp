@@ -32,9 +32,14 @@ class Reader {
       check(*table, scenario.encoder);
       if (problems_.size() != problems_before) scenario.encoder = {};
     }
+    if (const toml::table* const table = section(file, motor_section)) read_motor(*table, scenario.motor);
     values_.set_bench(scenario);
 
-    if (const toml::table* const table = section(file, initial_section)) scenario.initial = values_.assignments(*table);
+    if (const toml::table* const table = section(file, load_section))
+      scenario.initial = values_.assignments(*table, load_prefix);
+    if (const toml::table* const table = section(file, initial_section)) {
+      for (const Assignment& one : values_.assignments(*table)) scenario.initial.push_back(one);
+    }
     if (const toml::table* const table = section(file, record_section)) {
       read_section(*table, record_keys(), scenario.recording, "[record]");
       check(*table, scenario.recording);
@@ -138,6 +143,25 @@ class Reader {
       check(table, dimensions);
       if (problems_.size() == problems_before) machine = dimensions;
     });
+  }
+
+  void read_motor(const toml::table& table, std::optional<twin::MotorData>& motor) {
+    const std::vector<std::string_view> names = motor_names();
+    if (const toml::node* const node = table.get(motor_name_key)) {
+      const std::optional<Value> given = values_.read(*node, ValueType::choice, {.choices = names});
+      if (!given) return;
+      const twin::MotorData* const found = twin::find_motor(given->text);
+      motor = found == nullptr ? std::nullopt : std::optional(*found);
+    }
+    if (motor) {
+      read_section(table, motor_keys(), *motor, "[motor]", {motor_name_key});
+      return;
+    }
+    for (const auto& [key, node] : table) {
+      if (key.str() == motor_name_key) continue;
+      complain(place_of(key.source()),
+               "an ideal motor has no " + lang::in_quotes(key.str()) + ": its rotor is always where the field is");
+    }
   }
 
   void check(const toml::table& table, const twin::LinearStageDimensions& stage) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -209,6 +210,63 @@ TEST(ScenarioFile, KnowsTheDimensionsOfEveryMachine) {
   EXPECT_EQ(circular.friction, 0.08);
   const Scenario shaft = scenario_in("duration = '1 s'\n[machine]\nkind = 'free'\ninertia = '68 g cm2'");
   EXPECT_EQ(std::get<twin::RotaryAxisDimensions>(shaft.machine).inertia, 68e-7);
+}
+
+TEST(ScenarioFile, TurnsTheModulesMotorUnlessToldOtherwise) {
+  EXPECT_EQ(scenario_in("duration = '1 s'").motor, twin::motors().front());
+  EXPECT_EQ(scenario_in("duration = '1 s'\n[motor]\nname = 'ideal'").motor, std::nullopt);
+  const Scenario changed = scenario_in(R"(
+    duration = "1 s"
+    [motor]
+    name = "QSH6018-86-28-310"
+    rotor_inertia = "900 g cm2"
+    winding_inductance = "7 mH"
+  )");
+  twin::MotorData expected = *twin::find_motor("QSH6018-86-28-310");
+  expected.rotor_inertia = 900e-7;
+  expected.winding_inductance = 7e-3;
+  EXPECT_EQ(changed.motor, expected);
+  EXPECT_EQ(changed.board().motor, expected);
+  EXPECT_EQ(changed.mounted().motor, expected);
+}
+
+TEST(ScenarioFile, TakesTheLoadAsQuantitiesInTheBeginning) {
+  const Scenario scenario = scenario_in(R"(
+    duration = "1 s"
+    [initial]
+    temperature = 30
+    [load]
+    pull = "20 N"
+    coulomb_friction = "50 mNm"
+  )");
+  ASSERT_EQ(scenario.initial.size(), 3u);
+  EXPECT_EQ(scenario.initial[0].quantity->name, "load.pull");
+  EXPECT_EQ(scenario.initial[0].value, 20);
+  EXPECT_EQ(scenario.initial[1].quantity->name, "load.coulomb_friction");
+  EXPECT_EQ(scenario.initial[1].value, 0.05);
+}
+
+TEST(ScenarioFile, FindsMistakesInMotorsAndLoads) {
+  EXPECT_EQ(problems_in("[motor]\nname = \"QSH5718-41-28-05\""),
+            "f:3:8: expected QSH5718-41-28-055, QSH5718-51-28-101, QSH5718-56-28-126, QSH5718-76-28-189, "
+            "QSH6018-45-28-110, QSH6018-56-28-165, QSH6018-65-28-210, QSH6018-86-28-310 or ideal, found "
+            "'QSH5718-41-28-05'; did you mean QSH5718-41-28-055?\n");
+  EXPECT_EQ(problems_in("[motor]\nrotor_inertai = \"68 g cm2\""),
+            "f:3:1: [motor] has no 'rotor_inertai': did you mean rotor_inertia?\n");
+  EXPECT_EQ(problems_in("[motor]\nholding_torque = \"60 Nm\""), "f:3:18: expected 0.005 to 50 Nm, found 60\n");
+  EXPECT_EQ(problems_in("[motor]\nname = \"ideal\"\nrotor_inertia = \"68 g cm2\""),
+            "f:4:1: an ideal motor has no 'rotor_inertia': its rotor is always where the field is\n");
+  EXPECT_EQ(problems_in("[load]\ntorqe = \"1 Nm\""),
+            "f:3:1: there is no quantity 'load.torqe': did you mean load.torque?\n");
+  EXPECT_EQ(problems_in("[load]\ntorque = \"20 Nm\""), "f:3:10: load.torque goes from -10 to 10 Nm\n");
+  EXPECT_EQ(problems_in("[motor]\nname = \"ideal\"\n[load]\ntorque = 1"),
+            "f:5:1: load.torque does not exist with an ideal motor\n");
+  EXPECT_EQ(problems_in("[machine]\nkind = \"free\"\n[load]\npull = 1"),
+            "f:5:1: load.pull does not exist on this machine\n");
+  EXPECT_EQ(problems_in("[initial]\nload_measurement = 5"),
+            "f:3:1: load_measurement can only be set with an ideal motor\n");
+  EXPECT_EQ(problems_in("[initial]\nencoder.a_connected = false"),
+            "f:3:9: encoder.a_connected does not exist on this machine\n");
 }
 
 TEST(ScenarioFile, KnowsWhatTheModuleCan) {

@@ -121,7 +121,21 @@ Json machine_schema() {
   return {{"anyOf", std::move(kinds)}};
 }
 
+Json motor_schema() {
+  Json schema = section_schema(motor_keys());
+  schema["properties"][std::string(motor_name_key)] = {{"enum", motor_names()},
+                                                       {"description", "The first one if it is not given."}};
+  return schema;
+}
+
+/// The part of the quantities' names behind the prefix.
+Json load_schema() {
+  return assignments_schema()["properties"][std::string(load_prefix.substr(0, load_prefix.size() - 1))];
+}
+
 Json schema_of_section(std::string_view name) {
+  if (name == motor_section) return motor_schema();
+  if (name == load_section) return load_schema();
   if (name == machine_section) return machine_schema();
   if (name == encoder_section) return section_schema(encoder_keys());
   if (name == record_section) return section_schema(record_keys());

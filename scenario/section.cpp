@@ -8,6 +8,8 @@ namespace {
 constexpr SectionName section_names[] = {
     {machine_section, "What the motor turns.", false},
     {encoder_section, "The encoder on its shaft.", false},
+    {motor_section, "The motor: one of those that the twin knows by name, or such a one with other data.", false},
+    {load_section, "What acts on its shaft in the beginning: the quantities load.torque, load.pull and so on.", false},
     {initial_section, "Quantities as they are before the module gets its supply.", false},
     {record_section, "What is written down.", false},
     {event_section, "Something that happens at a time or under a condition.", true},
@@ -112,6 +114,13 @@ std::span<const SectionName> sections() {
 
 std::span<const Key<Scenario>> root_keys() {
   return root;
+}
+
+std::vector<std::string_view> motor_names() {
+  std::vector<std::string_view> names;
+  for (const twin::MotorData& motor : twin::motors()) names.push_back(motor.name);
+  names.push_back(ideal_motor);
+  return names;
 }
 
 std::span<const Key<Recording>> record_keys() {

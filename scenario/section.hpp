@@ -54,6 +54,8 @@ struct Key {
 /// Section names as they are written in the file.
 inline constexpr std::string_view machine_section = "machine";
 inline constexpr std::string_view encoder_section = "encoder";
+inline constexpr std::string_view motor_section = "motor";
+inline constexpr std::string_view load_section = "load";
 inline constexpr std::string_view initial_section = "initial";
 inline constexpr std::string_view record_section = "record";
 inline constexpr std::string_view event_section = "event";
@@ -69,9 +71,23 @@ std::span<const SectionName> sections();
 
 std::span<const Key<Scenario>> root_keys();
 std::span<const Key<twin::EncoderProperties>> encoder_keys();
+std::span<const Key<twin::MotorData>> motor_keys();
 std::span<const Key<Recording>> record_keys();
 std::span<const Key<Event>> event_keys();
 std::span<const Key<Expectation>> expect_keys();
+
+// ---- The motor: what its name stands for can be changed by other keys
+
+inline constexpr std::string_view motor_name_key = "name";
+/// The motor whose rotor is always where the field is. Nothing else can be said of it.
+inline constexpr std::string_view ideal_motor = "ideal";
+
+/// The one that is taken when nothing is said of it first.
+std::vector<std::string_view> motor_names();
+
+// ---- The load: quantities whose names begin so
+
+inline constexpr std::string_view load_prefix = "load.";
 
 // ---- The machine: its kind says which keys there are
 

@@ -37,6 +37,8 @@ constexpr Unit table[] = {
     {"mA", Dimension::current, 1, 1'000},
     {"Ohm", Dimension::resistance, 1, 1},
     {"mOhm", Dimension::resistance, 1, 1'000},
+    {"H", Dimension::inductance, 1, 1},
+    {"mH", Dimension::inductance, 1, 1'000},
     {"degC", Dimension::temperature, 1, 1},
     {"°C", Dimension::temperature, 1, 1},
     {"N", Dimension::force, 1, 1},
@@ -57,6 +59,7 @@ constexpr Unit table[] = {
     {"N m/rad", Dimension::torsional_stiffness, 1, 1},
     {"Nm s", Dimension::torsional_damping, 1, 1},
     {"N m s", Dimension::torsional_damping, 1, 1},
+    {"rpm", Dimension::rotation_speed, 1, 1},
     {"%", Dimension::share, 1, 1},
 };
 
@@ -68,6 +71,7 @@ constexpr std::string_view dimension_names[] = {"a time",
                                                 "a voltage",
                                                 "a current",
                                                 "a resistance",
+                                                "an inductance",
                                                 "a temperature",
                                                 "a force",
                                                 "a torque",
@@ -76,6 +80,7 @@ constexpr std::string_view dimension_names[] = {"a time",
                                                 "a stiffness",
                                                 "a torsional stiffness",
                                                 "a torsional damping",
+                                                "a rotational speed",
                                                 "a share"};
 
 constexpr bool is_space(char letter) {

@@ -20,6 +20,7 @@ enum class Dimension : std::uint8_t {
   voltage,
   current,
   resistance,
+  inductance,
   temperature,
   force,
   torque,
@@ -28,6 +29,7 @@ enum class Dimension : std::uint8_t {
   stiffness,
   torsional_stiffness,
   torsional_damping,
+  rotation_speed,
   share,
 };
 

@@ -164,8 +164,9 @@ std::optional<Value> ValueReader::condition(const toml::node& node) {
   for (const auto& all : condition.alternatives) {
     for (const Comparison& one : all) {
       for (const twin::Quantity* const quantity : {one.left, one.right}) {
-        if (quantity == nullptr || quantity->exists_in(*world_)) continue;
-        complain(place_within(node, one.offset), std::string(quantity->name) + " does not exist on this machine");
+        if (quantity == nullptr) continue;
+        if (const auto reason = twin::absence(*quantity, *world_))
+          complain(place_within(node, one.offset), std::string(quantity->name) + ' ' + *reason);
       }
     }
   }
@@ -174,9 +175,9 @@ std::optional<Value> ValueReader::condition(const toml::node& node) {
 
 // ---- Quantities
 
-std::vector<Assignment> ValueReader::assignments(const toml::table& table) {
+std::vector<Assignment> ValueReader::assignments(const toml::table& table, std::string_view prefix) {
   std::vector<std::pair<Place, Assignment>> found;
-  add_assignments(table, {}, 0, found);
+  add_assignments(table, std::string(prefix), 0, found);
   // toml++ sorts the keys; here the order is that of the file.
   std::stable_sort(found.begin(), found.end(), [](const auto& left, const auto& right) {
     return std::tie(left.first.line, left.first.column) < std::tie(right.first.line, right.first.column);

@@ -34,7 +34,8 @@ class ValueReader {
 
   std::optional<Value> read(const toml::node& node, ValueType type, const AllowedValues& allowed);
   /// In the order of the file. Those with mistakes are left out.
-  std::vector<Assignment> assignments(const toml::table& table);
+  /// @param prefix goes before the names in the table
+  std::vector<Assignment> assignments(const toml::table& table, std::string_view prefix = {});
 
   void complain(Place place, std::string message) { problems_.complain(place, std::move(message)); }
   void complain_of_kind(const toml::node& node, std::string_view expected);
