@@ -55,11 +55,11 @@ struct Effect {
 };
 
 const std::vector<Effect> effects{
-    {{"supply_voltage", 8}, "motor.pull_out_torque", false},
+    {{"supply_voltage", 10}, "load_measurement", true},
     {{"temperature", 160}, "tmc262.bridges_on", false},
     {{"load.torque", 0.05}, "rotor.load_angle", true},
     {{"load.pull", 100}, "rotor.load_angle", true},
-    {{"load.inertia", 1e-3}, "rotor.load_angle", true},
+    {{"load.inertia", 5e-3}, "rotor.load_angle", true},
     {{"load.coulomb_friction", 0.05}, "rotor.load_angle", true},
     {{"load.viscous_friction", 0.01}, "rotor.load_angle", true},
     {{"load.spring", 0.1}, "rotor.load_angle", true},
@@ -85,7 +85,7 @@ double probed(const Effect& effect, bool is_changed) {
   start_with_current(world);
   if (effect.given) change(world, effect.given->name, effect.given->value);
   if (is_changed) change(world, effect.change.name, effect.change.value);
-  set<tmc429::MaximumAcceleration>(world, 30);
+  set<tmc429::MaximumAcceleration>(world, 5);
   drive(world, 1500);
   world.advance_to(520 * millisecond);
   return value_of(world, effect.probe);
@@ -130,9 +130,10 @@ TEST(WritableQuantities, TakeTheIndexAwayWithItsWire) {
 TEST(Quantities, ShowTheMotorAsItIsNow) {
   World world(nullptr, bench());
   start_with_current(world);
-  change(world, "load.torque", 0.1);
-  drive(world, 1500);
-  world.advance_to(2000 * millisecond);
+  change(world, "load.coulomb_friction", 0.1);
+  set<tmc429::MaximumAcceleration>(world, 50);
+  drive(world, 1000);
+  world.advance_to(3000 * millisecond);
   const double speed = value_of(world, "rotor.speed");
   EXPECT_NEAR(speed, value_of(world, "step_rate") / microsteps_per_turn * 60, 0.5);
   EXPECT_EQ(value_of(world, "rotor.regime"), 0);

@@ -62,7 +62,7 @@ TEST(Quantities, HoldWhatWasWritten) {
 /// Whether `other` says in another way what `written` says.
 bool follows(std::string_view other, std::string_view written) {
   const auto is_one_torque = [](std::string_view name) { return name == "load.torque" || name == "load.pull"; };
-  if (written == "temperature") return other.starts_with("tmc262.overtemperature");
+  if (written == "temperature" && other.starts_with("tmc262.overtemperature")) return true;
   return other == "inputs" || written.starts_with(other) || (is_one_torque(other) && is_one_torque(written));
 }
 
