@@ -286,8 +286,8 @@ constexpr bool names_are_unique() {
 constexpr bool ranges_make_sense() {
   for (const Quantity& row : rows) {
     if (row.description.empty() || row.description.back() != '.') return false;
-    if (row.can_be_written() != (row.lowest < row.highest)) return false;
-    if (row.kind == Kind::truth && row.can_be_written() && (row.lowest != 0 || row.highest != 1)) return false;
+    if (row.lowest > row.highest) return false;
+    if (row.kind == Kind::truth && (row.lowest != 0 || (row.highest != 0 && row.highest != 1))) return false;
   }
   return true;
 }

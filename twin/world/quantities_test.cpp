@@ -45,6 +45,11 @@ std::vector<double> values_for(const Quantity& quantity) {
   return {quantity.lowest, quantity.lowest + 1, std::trunc((quantity.lowest + quantity.highest) / 2), quantity.highest};
 }
 
+TEST(Quantities, HaveARangeExactlyWhereTheyCanBeWritten) {
+  for (const Quantity& quantity : quantities())
+    EXPECT_EQ(quantity.can_be_written(), quantity.lowest < quantity.highest) << quantity.name;
+}
+
 TEST(Quantities, HoldWhatWasWritten) {
   for (const World::Mounted& bench : benches) {
     for (const Quantity& quantity : quantities()) {
