@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <system_error>
@@ -10,6 +11,10 @@
 namespace opentmcl::server {
 
 namespace {
+
+std::string lock_path_of(const std::string& path) {
+  return path + ".lock";
+}
 
 /// False when `path` was removed, or made anew, between our opening and our locking it.
 bool is_still(const std::string& path, int file) {
@@ -22,7 +27,7 @@ bool is_still(const std::string& path, int file) {
 }  // namespace
 
 client::Result<FileLock> FileLock::acquire(const std::string& path) {
-  const std::string lock_path = path + ".lock";
+  const std::string lock_path = lock_path_of(path);
   while (true) {
     client::FileDescriptor file(::open(lock_path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600));
     if (!file.is_open()) {
@@ -35,6 +40,10 @@ client::Result<FileLock> FileLock::acquire(const std::string& path) {
     }
     if (is_still(lock_path, file.get())) return FileLock(lock_path, std::move(file));
   }
+}
+
+bool FileLock::is_present(const std::string& path) {
+  return ::access(lock_path_of(path).c_str(), F_OK) == 0;
 }
 
 FileLock::~FileLock() {

@@ -14,6 +14,8 @@ class FileLock {
  public:
   /// Errors: bad_file (somebody else has it), input_output.
   static client::Result<FileLock> acquire(const std::string& path);
+  /// Whether there is a lock file for `path`: of somebody who has the lock, or left behind by a killed program.
+  static bool is_present(const std::string& path);
 
   FileLock(FileLock&& other) noexcept = default;
   FileLock& operator=(FileLock&&) = delete;

@@ -19,24 +19,31 @@ client::Error refused(const std::string& path, const std::string& why) {
 
 client::Result<PtyLink> PtyLink::create(const std::string& path, const std::string& terminal) {
   std::error_code error;
+  const bool was_left_behind = FileLock::is_present(path);
+  client::Result<FileLock> lock = FileLock::acquire(path);
+  if (!lock) {
+    if (lock.error().kind != client::ErrorKind::bad_file) return lock.error();
+    return refused(path, "it is in use by another virtual module; end that one or choose another path");
+  }
   const fs::file_status status = fs::symlink_status(path, error);
   if (fs::exists(status)) {
     if (!fs::is_symlink(status)) return refused(path, "something that is not a link has this name");
     const std::string target = fs::read_symlink(path, error).string();
-    if (target != terminal && fs::exists(path, error)) {
+    if (!was_left_behind && target != terminal && fs::exists(path, error)) {
       return refused(path, "it leads to " + target + ", which is in use; end that program or choose another path");
     }
     fs::remove(path, error);
   }
   fs::create_symlink(terminal, path, error);
   if (error) return refused(path, error.message());
-  return PtyLink(path, terminal);
+  return PtyLink(path, terminal, std::move(*lock));
 }
 
-PtyLink::PtyLink(std::string path, std::string terminal) : path_(std::move(path)), terminal_(std::move(terminal)) {}
+PtyLink::PtyLink(std::string path, std::string terminal, FileLock lock)
+    : path_(std::move(path)), terminal_(std::move(terminal)), lock_(std::move(lock)) {}
 
 PtyLink::PtyLink(PtyLink&& other) noexcept
-    : path_(std::exchange(other.path_, {})), terminal_(std::move(other.terminal_)) {}
+    : path_(std::exchange(other.path_, {})), terminal_(std::move(other.terminal_)), lock_(std::move(other.lock_)) {}
 
 PtyLink::~PtyLink() {
   if (path_.empty()) return;

@@ -56,6 +56,29 @@ TEST_F(PtyLinkTest, LeavesTheLinkOfALiveTerminalAlone) {
   EXPECT_EQ(terminal, fs::read_symlink(link));
 }
 
+TEST_F(PtyLinkTest, ReplacesTheLinkOfAKilledProgramWhoseTerminalIsSomebodyElsesNow) {
+  fs::create_symlink(terminal, link);
+  std::ofstream(link + ".lock") << "";
+  const client::Result<PtyLink> made = PtyLink::create(link, "/dev/pts/another");
+  ASSERT_TRUE(made.ok()) << made.error().message;
+  EXPECT_EQ("/dev/pts/another", fs::read_symlink(link));
+}
+
+TEST_F(PtyLinkTest, LeavesALinkAloneThatAnotherObjectHas) {
+  const client::Result<PtyLink> made = PtyLink::create(link, terminal);
+  const client::Result<PtyLink> second = PtyLink::create(link, "/dev/pts/another");
+  ASSERT_FALSE(second.ok());
+  EXPECT_EQ(client::ErrorKind::input_output, second.error().kind);
+  EXPECT_NE(second.error().message.find("in use"), std::string::npos) << second.error().message;
+  EXPECT_EQ(terminal, fs::read_symlink(link));
+}
+
+TEST_F(PtyLinkTest, LeavesNothingBehind) {
+  { const client::Result<PtyLink> made = PtyLink::create(link, terminal); }
+  fs::remove(terminal);
+  EXPECT_TRUE(fs::is_empty(folder));
+}
+
 TEST_F(PtyLinkTest, NeverReplacesAFile) {
   std::ofstream(link) << "precious";
   EXPECT_FALSE(PtyLink::create(link, terminal).ok());
