@@ -21,15 +21,12 @@ Recorder::Recorder(const Recording& recording, std::unique_ptr<RecordingFormat> 
   for (const std::string& name : recording.signals) signals_.push_back({name, twin::find_quantity(name)});
 }
 
-bool Recorder::is_sampled(const RecordedSignal& signal) const {
-  return signal.quantity != nullptr && (!exact_ || signal.quantity->trace_scale == 0);
-}
-
 void Recorder::start(const VirtualModule& module) {
   const twin::World& world = module.world();
   begin_ = world.now();
   for (const RecordedSignal& signal : signals_) {
     noted_.push_back(signal.quantity == nullptr ? 0 : signal.quantity->read(world));
+    is_sampled_.push_back(signal.quantity != nullptr && !(exact_ && signal.quantity->is_traced_in(world)));
   }
   written_ = noted_;
   running_ = true;
@@ -61,7 +58,7 @@ void Recorder::finish(const VirtualModule& module) {
 void Recorder::changed(twin::Tick tick, std::string_view signal, std::int64_t value) {
   if (!running_) return;
   for (std::size_t i = 0; i < signals_.size(); ++i) {
-    if (signals_[i].name != signal || is_sampled(signals_[i])) continue;
+    if (signals_[i].name != signal || is_sampled_[i]) continue;
     const bool is_event = signals_[i].quantity == nullptr;
     const double scale = is_event ? 1 : signals_[i].quantity->trace_scale;
     if (is_event) noted_[i] = static_cast<double>(value);
@@ -72,7 +69,7 @@ void Recorder::changed(twin::Tick tick, std::string_view signal, std::int64_t va
 
 void Recorder::look(const twin::World& world) {
   for (std::size_t i = 0; i < signals_.size(); ++i) {
-    if (is_sampled(signals_[i])) note(world.now() - begin_, i, signals_[i].quantity->read(world));
+    if (is_sampled_[i]) note(world.now() - begin_, i, signals_[i].quantity->read(world));
   }
 }
 

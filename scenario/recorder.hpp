@@ -19,7 +19,8 @@ namespace opentmcl::scenario {
 /// Records from start() to finish(), in simulated time alone: equal runs give equal bytes, at every speed.
 ///
 /// A signal that is in the trace is recorded at each tick at which it changes. All others are looked at in regular
-/// intervals from the begin on, and with Recording::exact off those that are in the trace too. Words and events that
+/// intervals from the begin on: what a real motor moves, for one, and with Recording::exact off those that are in the
+/// trace too. Words and events that
 /// are only in the trace are always recorded.
 class Recorder final : public twin::TraceObserver, public BenchActor {
  public:
@@ -48,7 +49,6 @@ class Recorder final : public twin::TraceObserver, public BenchActor {
     double value;
   };
 
-  bool is_sampled(const RecordedSignal& signal) const;
   void look(const twin::World& world);
   void note(twin::Tick tick, std::size_t signal, double value);
   void trigger(twin::Tick tick);
@@ -67,9 +67,10 @@ class Recorder final : public twin::TraceObserver, public BenchActor {
   twin::Tick begin_ = 0;
   bool running_ = false;
   bool triggered_ = false;
-  std::vector<double> noted_;    ///< latest value of each signal
-  std::vector<double> written_;  ///< the same without `changes_`
-  std::vector<Change> changes_;  ///< not written yet
+  std::vector<bool> is_sampled_;  ///< of each signal: looked at in intervals, in place of what the trace says
+  std::vector<double> noted_;     ///< latest value of each signal
+  std::vector<double> written_;   ///< the same without `changes_`
+  std::vector<Change> changes_;   ///< not written yet
 };
 
 /// Why a signal of this name cannot be recorded, or nothing.

@@ -182,14 +182,25 @@ constexpr std::string_view move = R"(
 
 TEST(Recorder, HasEachStepAtItsTickOrEachValueSoOften) {
   const std::string signals = "signals = [\"encoder\", \"position\"]\n";
-  const Dump exact(recording_of(std::string(move) + signals));
-  const Dump coarse(recording_of(std::string(move) + signals + "exact = false\nevery = \"20 ms\""));
+  const std::string ideal = "[motor]\nname = \"ideal\"\n";
+  const Dump exact(recording_of(std::string(move) + signals + ideal));
+  const Dump coarse(recording_of(std::string(move) + signals + "exact = false\nevery = \"20 ms\"\n" + ideal));
   const auto is_at_look = [](const auto& change) { return change.first % (20 * units_a_millisecond) == 0; };
   EXPECT_FALSE(std::all_of(exact["encoder"].begin(), exact["encoder"].end(), is_at_look));
   EXPECT_TRUE(std::all_of(coarse["encoder"].begin(), coarse["encoder"].end(), is_at_look));
   EXPECT_LT(coarse["encoder"].size(), 22u);
   EXPECT_GT(exact["encoder"].size(), 55u);
   EXPECT_EQ(exact["encoder"].back().second, coarse["encoder"].back().second);
+}
+
+TEST(Recorder, LooksOftenEnoughAtWhatARealMotorMoves) {
+  const Dump dump(recording_of(std::string(move) + "signals = [\"encoder\"]\n"));
+  const Dump::Values& counts = dump["encoder"];
+  ASSERT_GT(counts.size(), 50u);
+  for (const auto& [time, count] : counts) EXPECT_EQ(time % units_a_millisecond, 0u) << time;
+  for (std::size_t i = 1; i < counts.size(); ++i) {
+    EXPECT_LE(std::abs(counts[i].second - counts[i - 1].second), 2) << "at " << counts[i].first;
+  }
 }
 
 TEST(Recorder, StartsAtItsConditionWithWhatWasBefore) {

@@ -188,13 +188,13 @@ TEST(ScenarioRun, MovesTheMotorByCommand) {
     note = "half way"
     [[expect]]
     at = "3 s"
-    that = "stage = 1 mm within 0.001 mm and position = target_position"
+    that = "stage = 1 mm within 0.002 mm and position = target_position"
   )");
   bench.advance_to_the_end();
   ASSERT_EQ(bench.reports().size(), 2u);
   EXPECT_THAT(bench.reports()[0], testing::EndsWith(" note: half way"));
   EXPECT_EQ(bench.reports()[1],
-            "3000000 met: stage = 1 mm within 0.001 mm and position = target_position; stage is 1 mm, position is "
+            "3000000 met: stage = 1 mm within 0.002 mm and position = target_position; stage is 0.999 mm, position is "
             "25600, target_position is 25600");
 }
 

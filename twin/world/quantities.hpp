@@ -34,6 +34,9 @@ struct Quantity {
   Kind kind = Kind::real;
   /// What the trace says for 1 in `unit`: 1000 where it counts mV. 0 for a quantity that is not in the trace.
   double trace_scale = 0;
+  /// Whether such a motor moves it between two of its changes in the trace, which has it where spans end
+  /// (docs/decisions/0052-spans.md).
+  bool follows_rotor = false;
   /// Whether it is one of a motor with a load; an ideal motor has none.
   bool needs_motor = false;
   /// Whether such a motor sets it by itself, so that it can only be written with an ideal one.
@@ -51,6 +54,8 @@ struct Quantity {
   bool exists_in(const World& world) const {
     return (!needs_motor || world.motor()) && (exists == nullptr || exists(world));
   }
+  /// Whether the trace has each of its changes, at the tick of the change.
+  bool is_traced_in(const World& world) const { return trace_scale != 0 && !(follows_rotor && world.motor()); }
   constexpr bool can_be_written() const { return write != nullptr; }
 };
 
