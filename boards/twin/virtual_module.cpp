@@ -21,66 +21,86 @@ twin::ShaftEncoder encoder_of(ModuleId module, twin::EncoderProperties propertie
 /// firmware/hal on the models of the world: one small adapter for each device.
 class VirtualModule::Board {
  public:
-  Board(ModuleId module, twin::World& world, const std::vector<hal::Port>& ports, hal::CanPort* can)
-      : tmc429_(world),
-        tmc262_(world),
-        eeprom_(world),
-        pins_(wiring_of(module), world),
-        analog_(world),
-        encoder_(world),
-        hal{tmc429_, tmc262_, eeprom_, pins_, analog_, encoder_, ports.data(), static_cast<std::uint8_t>(ports.size()),
-            can} {}
+  explicit Board(VirtualModule& module)
+      : world_{module},
+        tmc429_(world_),
+        tmc262_(world_),
+        eeprom_(world_),
+        pins_(wiring_of(module.description_.id), world_),
+        analog_(world_),
+        encoder_(world_),
+        hal{tmc429_,
+            tmc262_,
+            eeprom_,
+            pins_,
+            analog_,
+            encoder_,
+            module.ports_.data(),
+            static_cast<std::uint8_t>(module.ports_.size()),
+            module.options_.can} {}
 
  private:
+  /// Whatever is done through it is done at the time of the firmware's turn.
+  struct PresentWorld {
+    twin::World& operator*() const {
+      module.bring_world_to_present();
+      return module.world_;
+    }
+    twin::World* operator->() const { return &**this; }
+    VirtualModule& module;
+  };
+
   struct MotionController final : hal::SpiDevice {
-    explicit MotionController(twin::World& w) : world(w) {}
-    std::uint32_t transfer(std::uint32_t word) override { return world.transfer_tmc429(word); }
-    twin::World& world;
+    explicit MotionController(PresentWorld& w) : world(w) {}
+    std::uint32_t transfer(std::uint32_t word) override { return world->transfer_tmc429(word); }
+    PresentWorld& world;
   };
 
   struct Driver final : hal::SpiDevice {
-    explicit Driver(twin::World& w) : world(w) {}
-    std::uint32_t transfer(std::uint32_t word) override { return world.transfer_tmc262(word); }
-    twin::World& world;
+    explicit Driver(PresentWorld& w) : world(w) {}
+    std::uint32_t transfer(std::uint32_t word) override { return world->transfer_tmc262(word); }
+    PresentWorld& world;
   };
 
   struct EepromDevice final : hal::Eeprom {
-    explicit EepromDevice(twin::World& w) : world(w) {}
-    bool busy() override { return world.eeprom_busy(); }
+    explicit EepromDevice(PresentWorld& w) : world(w) {}
+    bool busy() override { return world->eeprom_busy(); }
     void read(std::uint16_t address, std::uint8_t* data, std::size_t length) override {
-      world.read_eeprom(address, data, length);
+      world->read_eeprom(address, data, length);
     }
     void write_page(std::uint16_t address, const std::uint8_t* data, std::size_t length) override {
-      world.write_eeprom_page(address, data, length);
+      world->write_eeprom_page(address, data, length);
     }
-    twin::World& world;
+    PresentWorld& world;
   };
 
   struct PinBank final : hal::Pins {
-    PinBank(const ModuleWiring& board, twin::World& w) : wiring(board), world(w) {}
+    PinBank(const ModuleWiring& board, PresentWorld& w) : wiring(board), world(w) {}
     std::uint32_t inputs() override {
-      std::uint32_t levels = world.inputs() & ~bit(hal::InputPin::stall_guard);
-      if (world.stall_guard_output()) levels |= bit(hal::InputPin::stall_guard);
-      if (world.home_switch()) levels |= bit(hal::InputPin::home_switch);
-      if (wiring.shows_encoder_null && world.encoder().near_null()) levels |= bit(hal::InputPin::encoder_null);
+      twin::World& present = *world;
+      std::uint32_t levels = present.inputs() & ~bit(hal::InputPin::stall_guard);
+      if (present.stall_guard_output()) levels |= bit(hal::InputPin::stall_guard);
+      if (present.home_switch()) levels |= bit(hal::InputPin::home_switch);
+      if (wiring.shows_encoder_null && present.encoder().near_null()) levels |= bit(hal::InputPin::encoder_null);
       if (wiring.home_switch_is_in0 && (levels & home_and_in0) != 0) levels |= home_and_in0;
       return levels;
     }
     void set_outputs(std::uint32_t levels) override {
-      world.set_outputs(levels);
-      world.set_driver_disable((levels & bit(hal::OutputPin::driver_disable)) != 0);
-      if (wiring.pull_ups_can_be_switched) world.set_pull_ups((levels & bit(hal::OutputPin::pull_ups)) != 0);
+      twin::World& present = *world;
+      present.set_outputs(levels);
+      present.set_driver_disable((levels & bit(hal::OutputPin::driver_disable)) != 0);
+      if (wiring.pull_ups_can_be_switched) present.set_pull_ups((levels & bit(hal::OutputPin::pull_ups)) != 0);
     }
     static constexpr std::uint32_t home_and_in0 = bit(hal::InputPin::home_switch) | bit(hal::InputPin::in0);
 
     const ModuleWiring& wiring;
-    twin::World& world;
+    PresentWorld& world;
   };
 
   /// Where the TMCM-1110 measures its supplies, full scale of the 12-bit converter: 40 V for the motor supply, 6.6 V
   /// for the logic supply (docs/decisions/0005-tmcm1110-io.md).
   struct Converter final : hal::Analog {
-    explicit Converter(twin::World& w) : world(w) {}
+    explicit Converter(PresentWorld& w) : world(w) {}
     std::int32_t read(hal::AnalogInput input) override {
       constexpr std::int32_t counts = 4095;
       constexpr std::int32_t supply_full_scale = 40'000;  // mV
@@ -88,32 +108,33 @@ class VirtualModule::Board {
       constexpr std::int32_t logic_supply = 5'000;        // mV
       switch (input) {
         case hal::AnalogInput::ain0:
-          return world.analog_input(0);
+          return world->analog_input(0);
         case hal::AnalogInput::supply_voltage:
-          return world.supply_voltage() / 100;
+          return world->supply_voltage() / 100;
         case hal::AnalogInput::temperature:
-          return world.temperature();
+          return world->temperature();
         case hal::AnalogInput::supply_counts:
-          return std::min(counts, world.supply_voltage() * counts / supply_full_scale);
+          return std::min(counts, world->supply_voltage() * counts / supply_full_scale);
         case hal::AnalogInput::logic_supply:
           return logic_supply * counts / logic_full_scale;
       }
       return 0;
     }
-    twin::World& world;
+    PresentWorld& world;
   };
 
   struct EncoderInput final : hal::Encoder {
-    explicit EncoderInput(twin::World& w) : world(w) {}
-    std::int32_t count() override { return static_cast<std::int32_t>(world.encoder().count()); }
+    explicit EncoderInput(PresentWorld& w) : world(w) {}
+    std::int32_t count() override { return static_cast<std::int32_t>(world->encoder().count()); }
     bool take_null_event(bool high_active, std::int32_t& count) override {
-      const std::optional<std::int64_t> event = world.encoder().take_null_event(high_active);
+      const std::optional<std::int64_t> event = world->encoder().take_null_event(high_active);
       if (event) count = static_cast<std::int32_t>(*event);
       return event.has_value();
     }
-    twin::World& world;
+    PresentWorld& world;
   };
 
+  PresentWorld world_;
   MotionController tmc429_;
   Driver tmc262_;
   EepromDevice eeprom_;
@@ -132,7 +153,7 @@ VirtualModule::VirtualModule(const ModuleDescription& description, std::vector<h
       world_(observer, {options_.machine, encoder_of(description.id, options_.encoder), options_.motor, options_.load,
                         options_.tables}),
       ports_(std::move(ports)),
-      board_(std::make_unique<Board>(description.id, world_, ports_, options_.can)) {
+      board_(std::make_unique<Board>(*this)) {
   restart();
 }
 
@@ -153,7 +174,7 @@ void VirtualModule::power_cycle() {
 }
 
 void VirtualModule::take_turn() {
-  const Microseconds time = now();
+  const Microseconds time = now_;
   if (world_.input_changes() != noted_input_changes_) {
     noted_input_changes_ = world_.input_changes();
     module_->note_input_change();
@@ -165,12 +186,14 @@ void VirtualModule::take_turn() {
   }
   next_turn_ = std::max(wanted, time + options_.turn);
   watches_until_ = std::max(module_->due_without_change(wanted), next_turn_);
+  if (watches_until_ > next_turn_) bring_world_to_present();
   noted_motion_changes_ = world_.motion_changes();
 }
 
 /// A program that waits for a position looks every millisecond. As long as nothing has changed it sees nothing, so
 /// these turns are left out: what happens, and when, is the same.
 void VirtualModule::leave_out_vain_turns(Microseconds time) {
+  if (watches_until_ <= next_turn_) return;
   const Microseconds end = std::min({watches_until_, time, next_act()});
   const bool is_awaited =
       world_.input_changes() != noted_input_changes_ || world_.motion_changes() != noted_motion_changes_;
@@ -194,16 +217,22 @@ Microseconds VirtualModule::next_turn() const {
 }
 
 void VirtualModule::advance_to(Microseconds time) {
-  for (leave_out_vain_turns(time); next_turn() <= time; leave_out_vain_turns(time)) {
-    world_.advance_to(next_turn() * twin::ticks_per_microsecond);
-    if (next_act() <= now()) {
+  while (true) {
+    leave_out_vain_turns(time);
+    const Microseconds act = next_act();
+    const Microseconds turn = std::min(next_firmware_turn(), act);
+    if (turn > time) break;
+    now_ = std::max(now_, turn);
+    if (act <= now_) {
+      bring_world_to_present();
       for (BenchActor* actor : actors_) {
-        if (actor->next_act() <= now()) actor->act(*this);
+        if (actor->next_act() <= now_) actor->act(*this);
       }
     }
-    if (next_firmware_turn() <= now()) take_turn();
+    if (next_firmware_turn() <= now_) take_turn();
   }
-  world_.advance_to(time * twin::ticks_per_microsecond);
+  now_ = std::max(now_, time);
+  bring_world_to_present();
 }
 
 }  // namespace opentmcl

@@ -67,7 +67,7 @@ class VirtualModule final : public Simulated {
   const ModuleDescription& description() const { return description_; }
 
   /// Simulated time since the module was made.
-  Microseconds now() const override { return world_.now() / twin::ticks_per_microsecond; }
+  Microseconds now() const override { return now_; }
 
   /// Runs firmware and world up to and including `time`; a time in the past changes nothing.
   void advance_to(Microseconds time) override;
@@ -76,7 +76,7 @@ class VirtualModule final : public Simulated {
   void add_actor(BenchActor& actor) { actors_.push_back(&actor); }
 
   /// Something happened outside, such as bytes on a port: the firmware takes a turn at now() in the next advance_to().
-  void wake() override { next_turn_ = watches_until_ = now(); }
+  void wake() override { next_turn_ = watches_until_ = now_; }
 
   /// When the firmware or an actor next needs to run if nothing happens outside; `never` while the firmware only waits
   /// for commands and no actor has anything to do.
@@ -85,7 +85,11 @@ class VirtualModule final : public Simulated {
   /// Takes the supply away and gives it back: registers and RAM are lost, the EEPROM and the shaft stay.
   void power_cycle();
 
-  twin::World& world() { return world_; }
+  /// At now(), also within a turn of the firmware: a port that it writes to may ask for the time.
+  twin::World& world() {
+    bring_world_to_present();
+    return world_;
+  }
   const twin::World& world() const { return world_; }
   Module& module() { return *module_; }
 
@@ -94,10 +98,12 @@ class VirtualModule final : public Simulated {
 
   void restart();
   void take_turn();
-  void leave_out_vain_turns(Microseconds time);
-  Microseconds next_firmware_turn() const {
-    return world_.input_changes() == noted_input_changes_ ? next_turn_ : now();
+  void bring_world_to_present() {
+    const twin::Tick present = now_ * twin::ticks_per_microsecond;
+    if (world_.now() < present) world_.advance_to(present);
   }
+  void leave_out_vain_turns(Microseconds time);
+  Microseconds next_firmware_turn() const { return world_.input_changes() == noted_input_changes_ ? next_turn_ : now_; }
   Microseconds next_act() const;
 
   const ModuleDescription& description_;
@@ -107,6 +113,8 @@ class VirtualModule final : public Simulated {
   std::unique_ptr<Board> board_;
   std::unique_ptr<Module> module_;
   std::vector<BenchActor*> actors_;
+  /// Many turns of the firmware touch no chip. The world catches up when one does, and before anybody else looks at it.
+  Microseconds now_ = 0;
   Microseconds next_turn_ = 0;
   /// Until then the firmware's turns only look whether the motion or a switch has changed.
   Microseconds watches_until_ = 0;
