@@ -164,6 +164,7 @@ std::int32_t Tmc262::microsteps_per_pulse() const {
 }
 
 std::optional<std::uint64_t> Tmc262::shut_off_after(std::uint64_t clock) const {
+  if (!bridge_a_.detects() && !bridge_b_.detects()) return std::nullopt;
   std::optional<std::uint64_t> first;
   for (const Tmc262Bridge* bridge : {&bridge_a_, &bridge_b_}) {
     const std::optional<std::uint64_t> shut_off = bridge->shut_off_clock();

@@ -47,8 +47,8 @@ void Tmc262Bridge::note_chopper_event(std::uint64_t clock) {
   if (connected_ && on(clock)) chopped_ = true;
 }
 
-std::uint64_t Tmc262Bridge::detected_shorts(std::uint64_t clock) const {
-  if (!detecting_since_ || clock <= *detecting_since_) return detected_shorts_;
+std::uint64_t Tmc262Bridge::detected_shorts_of_present(std::uint64_t clock) const {
+  if (clock <= *detecting_since_) return detected_shorts_;
   const std::uint64_t cycles = (clock - *detecting_since_) / conditions_.chopper_cycle;
   return std::min(detected_shorts_ + cycles, shorts_to_shut_off);
 }
@@ -61,10 +61,6 @@ void Tmc262Bridge::note_polarity_changes(std::uint64_t count, bool is_enough, st
   const bool is_on = on(clock);
   if (is_on && is_enough) open_load_ = count == 1 ? !chopped_ : !connected_;
   chopped_ = is_on && connected_;
-}
-
-bool Tmc262Bridge::on(std::uint64_t clock) const {
-  return conditions_.enabled && !conditions_.too_hot && !shut_off(clock);
 }
 
 }  // namespace opentmcl::twin

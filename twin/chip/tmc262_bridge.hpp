@@ -30,11 +30,13 @@ class Tmc262Bridge {
   void note_polarity_changes(std::uint64_t count, bool is_enough, std::uint64_t clock);
 
   /// A current can flow, where a coil is connected.
-  bool on(std::uint64_t clock) const;
+  bool on(std::uint64_t clock) const { return conditions_.enabled && !conditions_.too_hot && !shut_off(clock); }
   bool connected() const { return connected_; }
   bool shorted() const { return shorted_; }
   /// S2GA or S2GB: the third detected short has shut it off.
   bool shut_off(std::uint64_t clock) const { return detected_shorts(clock) >= shorts_to_shut_off; }
+  /// A short is being counted.
+  bool detects() const { return detecting_since_.has_value(); }
   /// When a short that lasts will shut it off, if it will.
   std::optional<std::uint64_t> shut_off_clock() const {
     if (!detecting_since_) return std::nullopt;
@@ -48,7 +50,10 @@ class Tmc262Bridge {
  private:
   static constexpr std::uint64_t shorts_to_shut_off = 3;
 
-  std::uint64_t detected_shorts(std::uint64_t clock) const;
+  std::uint64_t detected_shorts(std::uint64_t clock) const {
+    return detects() ? detected_shorts_of_present(clock) : detected_shorts_;
+  }
+  std::uint64_t detected_shorts_of_present(std::uint64_t clock) const;
   /// Call it after any change of what it depends on, having settled what was detected before.
   void begin_detection(std::uint64_t clock);
   void settle(std::uint64_t clock);

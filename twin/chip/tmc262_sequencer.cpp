@@ -16,31 +16,23 @@ constexpr std::uint64_t interpolated_microsteps = 16;
 /// Those edges of a run that make a step.
 struct ActiveEdges {
   std::uint64_t count;
-  std::uint64_t previous_clock;  ///< of the last but one, where there are two
-  std::uint64_t last_clock;
+  std::uint64_t first;     ///< edges of the run before the first of them
+  std::uint64_t distance;  ///< from one to the next, in edges of the run; 0 where a pulse has two
 };
 
 ActiveEdges active_edges(const Tmc262StepRun& run, bool both_edges) {
-  if (run.first == StepSignal::pulse && both_edges) {
-    return {2 * run.count, run.last_clock, run.last_clock};
-  }
-  if (run.first == StepSignal::pulse || both_edges) {
-    return {run.count, run.count > 1 ? run.clock_of(run.count - 2) : 0, run.last_clock};
-  }
+  if (run.first == StepSignal::pulse && both_edges) return {2 * run.count, 0, 0};
+  if (run.first == StepSignal::pulse || both_edges) return {run.count, 0, 1};
   const std::uint64_t skipped = run.first == StepSignal::rising ? 0 : 1;
-  const std::uint64_t count = (run.count + 1 - skipped) / 2;
-  if (count == 0) return {0, 0, 0};
-  const std::uint64_t last = skipped + 2 * (count - 1);
-  return {count, count > 1 ? run.clock_of(last - 2) : 0, run.clock_of(last)};
+  return {(run.count + 1 - skipped) / 2, skipped, 2};
 }
 
 /// How often a way leads over a multiple of two full steps, where a sine changes its sign.
 std::uint64_t polarity_changes(std::int64_t from, std::int64_t to) {
-  constexpr std::int64_t half_turn = tmc262::microstep_positions / 2;
-  const auto half_turns = [](std::int64_t position) {
-    return position >= 0 ? position / half_turn : -((half_turn - 1 - position) / half_turn);
-  };
-  const std::int64_t difference = half_turns(to) - half_turns(from);
+  constexpr int half_turn_bits = 9;
+  static_assert(1 << half_turn_bits == tmc262::microstep_positions / 2);
+  // Shifts round down on either side of 0.
+  const std::int64_t difference = (to >> half_turn_bits) - (from >> half_turn_bits);
   return static_cast<std::uint64_t>(difference < 0 ? -difference : difference);
 }
 
@@ -73,14 +65,18 @@ Tmc262Sequencer::Movement Tmc262Sequencer::take(const Tmc262StepRun& run, bool d
   const std::int64_t to = from + way;
   constexpr std::int64_t cosine_lead = tmc262::microsteps_per_fullstep;
 
-  const std::uint64_t previous_edge = edges.count > 1 ? edges.previous_clock : latest_edge_;
-  const std::uint64_t period =
-      std::min<std::uint64_t>(edges.last_clock - previous_edge, std::uint64_t{tmc262::standstill_clocks});
-  latest_edge_ = edges.last_clock;
-  position_ = static_cast<std::uint32_t>(to) % tmc262::microstep_positions;
+  const std::uint64_t last = edges.distance == 0 ? run.count - 1 : edges.first + (edges.count - 1) * edges.distance;
+  const std::uint64_t last_clock = last == run.count - 1 ? run.last_clock : run.clock_of(last);
   const bool plays = interpolates(registers);
-  microstep_interval_ = plays ? period / interpolated_microsteps : 0;
+  microstep_interval_ = 0;
   plays_down_ = plays && down;
+  if (plays) {
+    const std::uint64_t previous_edge = edges.count > 1 ? run.clock_of(last - edges.distance) : latest_edge_;
+    const std::uint64_t period = std::min(last_clock - previous_edge, std::uint64_t{tmc262::standstill_clocks});
+    microstep_interval_ = period / interpolated_microsteps;
+  }
+  latest_edge_ = last_clock;
+  position_ = static_cast<std::uint32_t>(to) % tmc262::microstep_positions;
 
   return {way, polarity_changes(from, to), polarity_changes(from + cosine_lead, to + cosine_lead)};
 }

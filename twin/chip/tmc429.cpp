@@ -180,6 +180,7 @@ std::uint32_t Tmc429::write_common(unsigned index, std::uint32_t data) {
 }
 
 void Tmc429::set_detail(StepDetail detail) {
+  if (detail == detail_) return;
   detail_ = detail;
   for (Tmc429StepOutput& output : outputs_) {
     output.set_detail(detail);
@@ -217,8 +218,10 @@ void Tmc429::advance_all(std::uint64_t clocks, unsigned motor, Until until, std:
     return;
   }
   const std::uint64_t end = advance_motor(motor, clock_ + clocks, until, step_clocks);
+  const std::uint64_t end_tick = tick_at(end);
   for (unsigned other = 0; other < tmc429::motor_count; ++other) {
-    if (other != motor) {
+    // Most modules have one motor: the other two should cost next to nothing.
+    if (other != motor && !rests(other, end_tick)) {
       advance_motor(other, end, Until::end, nullptr);
     }
   }
@@ -230,7 +233,7 @@ std::uint64_t Tmc429::advance_motor(unsigned motor, std::uint64_t end, Until unt
                                     std::vector<std::uint64_t>* step_clocks) {
   Tmc429Axis& axis = axes_[motor];
   Tmc429StepOutput& output = outputs_[motor];
-  if (!output.delayed_edge() && axis.rest(tick_at(end))) {
+  if (rests(motor, tick_at(end))) {
     return end;
   }
   const std::int32_t velocity_before = axis.ramp().state().velocity;

@@ -95,6 +95,10 @@ class Tmc429 {
   std::uint64_t advance_motor(unsigned motor, std::uint64_t end, Tmc429Ramp::Until until,
                               std::vector<std::uint64_t>* step_clocks);
   void give_out(unsigned motor, const Tmc429Ramp::Steps& steps, std::vector<std::uint64_t>* step_clocks);
+  /// Lets time pass until `end_tick` for a motor to which nothing happens before. False where something may.
+  bool rests(unsigned motor, std::uint64_t end_tick) {
+    return !outputs_[motor].delayed_edge() && axes_[motor].rest(end_tick);
+  }
   Tmc429Reach reach_to_consequences(unsigned motor) const;
   std::uint64_t tick_at(std::uint64_t clock) const;
   std::uint64_t clock_of(std::uint64_t tick) const;

@@ -72,9 +72,9 @@ void Tmc429StepOutput::give_out(std::uint64_t count, std::uint64_t first_clock, 
     single_step_clocks_->push_back(first_clock);
   }
   const bool direction = direction_pin(settings);
-  if (untold_ && untold_->direction == direction) {
-    untold_->count += count;
-    untold_->last_clock = last_clock;
+  if (untold_.count != 0 && untold_.direction == direction) {
+    untold_.count += count;
+    untold_.last_clock = last_clock;
   } else {
     flush();
     untold_ = StepRun{motor_, count, first_clock, last_clock, signal, direction};
@@ -84,10 +84,10 @@ void Tmc429StepOutput::give_out(std::uint64_t count, std::uint64_t first_clock, 
   }
 }
 
-void Tmc429StepOutput::flush() {
-  if (untold_) {
-    listener_->steps(*std::exchange(untold_, std::nullopt));
-  }
+void Tmc429StepOutput::tell() {
+  // The listener may set switches: by then there must be nothing left to tell.
+  const StepRun run = std::exchange(untold_, {});
+  listener_->steps(run);
 }
 
 bool Tmc429StepOutput::step_pin(std::uint64_t clock, const Settings& settings) const {

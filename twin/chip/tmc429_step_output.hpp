@@ -40,7 +40,9 @@ class Tmc429StepOutput {
   void advance(std::uint64_t clock, const Settings& settings);
 
   /// Tells the listener what was given out and not yet told.
-  void flush();
+  void flush() {
+    if (untold_.count != 0) tell();
+  }
 
   /// Level of STEP; high while the chip serves SPI drivers.
   bool step_pin(std::uint64_t clock, const Settings& settings) const;
@@ -48,6 +50,7 @@ class Tmc429StepOutput {
   bool direction_pin(const Settings& settings) const;
 
  private:
+  void tell();
   void give_out(std::uint64_t count, std::uint64_t first_clock, std::uint64_t last_clock, const Settings& settings);
 
   unsigned motor_;
@@ -57,7 +60,7 @@ class Tmc429StepOutput {
   std::optional<std::uint64_t> delayed_edge_;  ///< clock at which a step after a reversal goes out
   std::optional<std::uint64_t> latest_edge_;
   StepDetail detail_ = StepDetail::runs;
-  std::optional<StepRun> untold_;  ///< to which further steps may be added
+  StepRun untold_{};  ///< to which further steps may be added; none where its count is 0
   std::vector<std::uint64_t>* single_step_clocks_ = nullptr;
 };
 
