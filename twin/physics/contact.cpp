@@ -26,9 +26,9 @@ bool BouncingContact::is_open(const State& state, Tick tick) const {
   return held == (kind_ == Contact::normally_closed);
 }
 
-Tick BouncingContact::next_change(const State& state, Tick tick) const {
-  if (state.changes == 0 || part_ == 0) return never_tick;
+Tick BouncingContact::next_chatter(const State& state, Tick tick) const {
   const Tick now = (tick - state.changed_at) / part_;
+  if (now >= parts) return never_tick;
   for (Tick part = now + 1; part < parts; ++part) {
     if (is_held_in_part(state, part) != is_held_in_part(state, now)) return state.changed_at + part * part_;
   }

@@ -46,9 +46,12 @@ class BouncingContact {
   Tick shortest_change() const { return part_ == 0 ? never_tick : part_; }
 
   /// The first tick after `tick` at which the chatter changes the contact; never_tick if it has come to rest.
-  Tick next_change(const State& state, Tick tick) const;
+  Tick next_change(const State& state, Tick tick) const {
+    return state.changes == 0 || part_ == 0 ? never_tick : next_chatter(state, tick);
+  }
 
  private:
+  Tick next_chatter(const State& state, Tick tick) const;
   bool is_held_in_part(const State& state, Tick part) const;
 
   Contact kind_;

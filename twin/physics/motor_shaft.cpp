@@ -26,7 +26,9 @@ MotorShaft::MotorShaft(const MotorData& motor, std::shared_ptr<TorqueTables> tab
     : motor_(motor), tables_(std::move(tables)) {}
 
 void MotorShaft::advance_to(Tick end, const Field& field) {
+  const double winding_temperature = heated(seconds_of(end - memory_.now), field);
   memory_ = after(end, field);
+  memory_.winding_temperature = winding_temperature;
 }
 
 MotorShaft::State MotorShaft::state_at(Tick tick, const Field& field) const {
@@ -56,7 +58,6 @@ MotorShaft::Memory MotorShaft::after(Tick end, const Field& field) const {
   }
   result.now = end;
   result.amplitude = field.amplitude;
-  result.winding_temperature = heated(seconds_of(end - memory_.now), field);
   return result;
 }
 

@@ -111,6 +111,7 @@ class MotorShaft {
   struct Limits;
   struct Equilibrium;
 
+  /// All but the winding's temperature, which takes no part in a single span.
   Memory after(Tick end, const Field& field) const;
   std::optional<Memory> locked_after(Tick end, const Field& field) const;
   std::optional<Memory> following(const Field& field, double seconds) const;

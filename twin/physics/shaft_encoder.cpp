@@ -104,6 +104,11 @@ std::int64_t ShaftEncoder::first_turned_at(std::int64_t place) const {
 
 void ShaftEncoder::move_to(std::int64_t place) {
   const std::int64_t before = std::exchange(state_.place, place);
+  if (properties_.kind == Kind::absolute) {
+    // It has no N whose level could be chosen.
+    if (const auto event = last_event(before, place, true)) state_.events[0] = state_.events[1] = count_in(*event);
+    return;
+  }
   for (const bool level : {false, true}) {
     if (const auto event = last_event(before, place, level)) state_.events[level ? 1 : 0] = count_in(*event);
   }
