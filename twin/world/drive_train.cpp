@@ -134,16 +134,17 @@ void DriveTrain::begin_span() {
 Tick DriveTrain::end_of_span() {
   set_detail(field_.drive().is_coarse || tmc262_.interpolates());
   const Tick end = next_event();
-  if (motor_->at_rest(field()) && tmc429_->clocks_for_steps(1, driven_motor) == never_tick) return end;
-  Tick span = motor_->longest_span(field());
-  if (!is_clear_of_events(span)) span = finest_span;
+  const Field present = field();
+  if (tmc429_->clocks_for_steps(1, driven_motor) == never_tick && motor_->at_rest(present)) return end;
+  Tick span = motor_->longest_span(present);
+  if (!is_clear_of_events(span, present)) span = finest_span;
   return std::min(end, (now_ / span + 1) * span);
 }
 
 /// Whether nothing can bring the shaft to a contact or an end within a span.
-bool DriveTrain::is_clear_of_events(Tick span) const {
+bool DriveTrain::is_clear_of_events(Tick span, const Field& present) const {
   const double seconds = static_cast<double>(span) * seconds_per_tick;
-  const double field_way = std::fabs(field().velocity) * seconds * electrical_turn;
+  const double field_way = std::fabs(present.velocity) * seconds * electrical_turn;
   const double rotor_way = std::fabs(motor_->state().velocity) * seconds * electrical_turn;
   // A ramp changes its velocity by less than half of the greatest within the longest span.
   const double reach = 1.5 * std::max(field_way, rotor_way) + swing;
@@ -174,14 +175,15 @@ void DriveTrain::set_detail(bool every_step) {
 
 FieldTracker::Drive DriveTrain::drive() const {
   using Coil = Tmc262::Coil;
-  const auto conducts = [this](Coil coil) { return tmc262_.bridge_on(coil) && tmc262_.coil_connected(coil); };
+  const bool bridge_a_on = tmc262_.bridge_on(Coil::a);
+  const bool bridge_b_on = tmc262_.bridge_on(Coil::b);
   double amplitude = tmc262_.current_amplitude() / milliamperes;
   if (spi_sets_currents(tmc262_)) amplitude *= magnitude_of(tmc262_.coil_currents());
   const std::int32_t microsteps_a_pulse = tmc262_.microsteps_per_pulse();
   return {.amplitude = amplitude,
-          .energised = tmc262_.bridge_on(Coil::a) || tmc262_.bridge_on(Coil::b),
-          .coil_a_connected = conducts(Coil::a),
-          .coil_b_connected = conducts(Coil::b),
+          .energised = bridge_a_on || bridge_b_on,
+          .coil_a_connected = bridge_a_on && tmc262_.coil_connected(Coil::a),
+          .coil_b_connected = bridge_b_on && tmc262_.coil_connected(Coil::b),
           .microsteps_a_step = microsteps_a_step(*tmc429_, microsteps_a_pulse),
           .is_coarse = microsteps_a_pulse > coarsest_smooth_step && !tmc262_.interpolates()};
 }

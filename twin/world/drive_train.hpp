@@ -107,7 +107,7 @@ class DriveTrain final : private StepListener {
   Tick end_of_span();
   Tick end_of_ideal_span();
   Tick next_event() const;
-  bool is_clear_of_events(Tick span) const;
+  bool is_clear_of_events(Tick span, const Field& present) const;
   FieldTracker::Drive drive() const;
   void after_change();
   void turn_ideal_rotor(Tick tick);

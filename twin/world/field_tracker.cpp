@@ -32,13 +32,15 @@ void FieldTracker::jump_to(std::uint32_t microstep_position, Tick tick) {
 }
 
 /// R = f_CLK v / (2^PULSE_DIV 2048 32) steps a second (TMC429 datasheet, page 36).
-double FieldTracker::turns_per_second(const Tmc429::Motion& motion) const {
+FieldTracker::Speed FieldTracker::speed_of(const Tmc429::Motion& motion) const {
+  if (start_speed_.is_of(motion, drive_.microsteps_a_step)) return start_speed_;
   constexpr double one = 1 << tmc429::velocity_fraction_bits;
   const double pulse_ticks_per_second =
       1 / (seconds_per_tick * tmc429::clock_prescaler * static_cast<double>(std::uint64_t{1} << motion.pulse_divider));
   const double steps_per_second =
       pulse_ticks_per_second * motion.velocity_with_fraction / one / tmc429::pulse_accumulator_size;
-  return turns_of(steps_per_second * drive_.microsteps_a_step);
+  return {motion.velocity_with_fraction, motion.pulse_divider, drive_.microsteps_a_step,
+          turns_of(steps_per_second * drive_.microsteps_a_step)};
 }
 
 void FieldTracker::begin(Tick now, const Drive& drive, const Tmc429::Motion& motion) {
@@ -48,12 +50,12 @@ void FieldTracker::begin(Tick now, const Drive& drive, const Tmc429::Motion& mot
   start_position_ = position_;
   const double within = drive.is_coarse ? 0 : part_of_step(motion) * drive.microsteps_a_step;
   start_angle_ = turns_of(static_cast<double>(position_) + within);
-  start_velocity_ = drive.is_coarse ? 0 : turns_per_second(motion);
+  start_speed_ = speed_of(motion);
 }
 
 Field FieldTracker::until(Tick now, const Tmc429::Motion& motion) const {
   Field field{.angle = start_angle_,
-              .velocity = start_velocity_,
+              .velocity = drive_.is_coarse ? 0 : start_speed_.turns_per_second,
               .acceleration = 0,
               .amplitude = drive_.amplitude,
               .energised = drive_.energised,
@@ -63,12 +65,13 @@ Field FieldTracker::until(Tick now, const Tmc429::Motion& motion) const {
               .steps = steps_};
   if (now == begun_ || drive_.is_coarse) return field;
   const double seconds = static_cast<double>(now - begun_) * seconds_per_tick;
-  const double velocity = turns_per_second(motion);
-  if (start_velocity_ == 0 && velocity == 0) {
+  const double start_velocity = start_speed_.turns_per_second;
+  const double velocity = speed_of(motion).turns_per_second;
+  if (start_velocity == 0 && velocity == 0) {
     // Steps that come from elsewhere have no ramp: they are spread over the span.
     field.velocity = turns_of(static_cast<double>(position_ - start_position_)) / seconds;
   } else {
-    field.acceleration = (velocity - start_velocity_) / seconds;
+    field.acceleration = (velocity - start_velocity) / seconds;
   }
   return field;
 }

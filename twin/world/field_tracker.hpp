@@ -45,13 +45,25 @@ class FieldTracker {
   Field until(Tick now, const Tmc429::Motion& motion) const;
 
  private:
-  double turns_per_second(const Tmc429::Motion& motion) const;
+  /// How fast the motion controller makes the field turn. Most motions are even and ask for one value again and again.
+  struct Speed {
+    std::int32_t velocity_with_fraction = 0;
+    unsigned pulse_divider = 0;
+    double microsteps_a_step = 0;
+    double turns_per_second = 0;
+
+    bool is_of(const Tmc429::Motion& motion, double microsteps) const {
+      return velocity_with_fraction == motion.velocity_with_fraction && pulse_divider == motion.pulse_divider &&
+             microsteps_a_step == microsteps;
+    }
+  };
+  Speed speed_of(const Tmc429::Motion& motion) const;
 
   std::int64_t position_ = 0;
   Tick begun_ = 0;
   Drive drive_;
-  double start_angle_ = 0;     ///< electrical turns
-  double start_velocity_ = 0;  ///< electrical turns/s
+  double start_angle_ = 0;  ///< electrical turns
+  Speed start_speed_;
   std::int64_t start_position_ = 0;
   std::vector<Field::Step> steps_;
 };
