@@ -72,8 +72,8 @@ class Equations {
   Equations(const MotorConditions& conditions, const Field& field)
       : load_(*conditions.load),
         amplitude_(field.amplitude),
-        connected_a_(field.coil_a_connected ? 1 : 0),
-        connected_b_(field.coil_b_connected ? 1 : 0),
+        connected_a_(field.coil_a_connected),
+        connected_b_(field.coil_b_connected),
         supply_rate_(conditions.supply / conditions.motor->winding_inductance),
         resistance_rate_(conditions.resistance / conditions.motor->winding_inductance),
         emf_rate_(conditions.motor->torque_constant() * shaft_radians / conditions.motor->winding_inductance),
@@ -138,8 +138,8 @@ class Equations {
     if constexpr (energised) {
       const double wanted_a = demand.current_rate.along - per_time_constant * state.current_a;
       const double wanted_b = demand.current_rate.across - per_time_constant * state.current_b;
-      result.current_a = connected_a_ * (limited(wanted_a + drop_a) - drop_a);
-      result.current_b = connected_b_ * (limited(wanted_b + drop_b) - drop_b);
+      result.current_a = connected_a_ ? limited(wanted_a + drop_a) - drop_a : 0;
+      result.current_b = connected_b_ ? limited(wanted_b + drop_b) - drop_b : 0;
     } else {
       // Through the diodes into the supply, until there is no current left.
       result.current_a = state.current_a == 0 ? 0 : held.freewheel_rate.along - drop_a;
@@ -155,8 +155,8 @@ class Equations {
 
   const Load& load_;
   double amplitude_;
-  double connected_a_;
-  double connected_b_;
+  bool connected_a_;
+  bool connected_b_;
   double supply_rate_;      ///< Vs / L
   double resistance_rate_;  ///< R / L
   double emf_rate_;         ///< V / L per electrical turn per second
@@ -253,9 +253,9 @@ class MovingField {
 
   Demand demand(const Equations& equations) const { return equations.demand(direction_, velocity_); }
   void stand_at(double angle) { direction_ = unit_phasor(angle); }
+  bool turns() const { return velocity_ != 0 || acceleration_ != 0; }
 
   void advance(double seconds) {
-    if (velocity_ == 0 && acceleration_ == 0) return;
     if (seconds != rotation_seconds_ || acceleration_ != 0) {
       rotation_seconds_ = seconds;
       rotation_ = unit_phasor(seconds * (velocity_ + 0.5 * acceleration_ * seconds));
@@ -289,11 +289,13 @@ PhaseState integrate_as(const Equations& equations, const Field& field, PhaseSta
     if (next_step != field.steps.end()) until = std::min(until, next_step->tick);
     Interval interval{};
     interval.seconds = seconds_of(until - now);
-    interval.begin = demand;
-    moving.advance(interval.seconds / 2);
-    interval.middle = moving.demand(equations);
-    moving.advance(interval.seconds / 2);
-    interval.end = demand = moving.demand(equations);
+    interval.begin = interval.middle = interval.end = demand;
+    if (moving.turns()) {
+      moving.advance(interval.seconds / 2);
+      interval.middle = moving.demand(equations);
+      moving.advance(interval.seconds / 2);
+      interval.end = demand = moving.demand(equations);
+    }
     state = step<energised, place_dependent>(equations, state, rotor, interval, jammed);
     now = until;
     if (now == next_line) next_line += grid;
