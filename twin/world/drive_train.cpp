@@ -91,7 +91,7 @@ DriveTrain::DriveTrain(ShaftSurroundings& surroundings, Options options)
 }
 
 void DriveTrain::run(Tick tick) {
-  const Tick end = std::min(tick, end_of_span_);
+  const Tick end = std::min({tick, end_of_span_, step_input_.next()});
   running_ = true;
   if (watches_ramp_) {
     tmc429_->advance_until_change(end - now_, driven_motor);
@@ -102,6 +102,10 @@ void DriveTrain::run(Tick tick) {
   now_ = powered_at_ + tmc429_->clock();
   tmc262_.advance(tmc429_->clock());
   const bool is_new_motion = watches_ramp_ && tmc429_->motion(driven_motor).velocity_with_fraction != velocity_;
+  if (now_ == step_input_.next()) {
+    step_input_.take();
+    pulse_step(step_input_.direction());
+  }
   if (is_new_motion || now_ == end_of_span_) commit();
 }
 
@@ -124,7 +128,7 @@ void DriveTrain::begin_span() {
   }
   const Tmc429::Motion motion = tmc429_->motion(driven_motor);
   velocity_ = motion.velocity_with_fraction;
-  field_.begin(now_, drive(), motion);
+  field_.begin(now_, drive(), motion, step_input_.part_of_step(now_));
   look_.reset();
   watches_ramp_ = !tmc429_->changes_velocity(driven_motor);
   end_of_span_ = motor_ ? end_of_span() : end_of_ideal_span();
@@ -135,7 +139,8 @@ Tick DriveTrain::end_of_span() {
   set_detail(field_.drive().is_coarse || tmc262_.interpolates());
   const Tick end = next_event();
   const Field present = field();
-  if (tmc429_->clocks_for_steps(1, driven_motor) == never_tick && motor_->at_rest(present)) return end;
+  const bool steps_may_come = step_input_.rate() != 0 || tmc429_->clocks_for_steps(1, driven_motor) != never_tick;
+  if (!steps_may_come && motor_->at_rest(present)) return end;
   Tick span = motor_->longest_span(present);
   if (!is_clear_of_events(span, present)) span = finest_span;
   return std::min(end, (now_ / span + 1) * span);
@@ -185,6 +190,8 @@ FieldTracker::Drive DriveTrain::drive() const {
           .coil_a_connected = bridge_a_on && tmc262_.coil_connected(Coil::a),
           .coil_b_connected = bridge_b_on && tmc262_.coil_connected(Coil::b),
           .microsteps_a_step = microsteps_a_step(*tmc429_, microsteps_a_pulse),
+          .other_steps_per_second = step_input_.rate(),
+          .microsteps_an_other_step = static_cast<double>(microsteps_a_pulse),
           .is_coarse = microsteps_a_pulse > coarsest_smooth_step && !tmc262_.interpolates()};
 }
 
@@ -291,6 +298,13 @@ void DriveTrain::set_load_measurement(std::int32_t value) {
 void DriveTrain::pulse_step(bool direction) {
   const std::uint64_t clock = now_ - powered_at_;
   steps({driven_motor, 1, clock, clock, StepSignal::pulse, direction});
+}
+
+void DriveTrain::set_step_input_rate(double rate) {
+  if (rate == step_input_.rate()) return;
+  commit();
+  step_input_.set_rate(rate, now_);
+  begin_span();
 }
 
 void DriveTrain::steps(const StepRun& run) {

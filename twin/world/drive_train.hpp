@@ -12,6 +12,7 @@
 #include "twin/physics/ideal_rotor.hpp"
 #include "twin/physics/motor_shaft.hpp"
 #include "twin/world/field_tracker.hpp"
+#include "twin/world/step_input.hpp"
 #include "twin/world/trace.hpp"
 
 namespace opentmcl::twin {
@@ -84,6 +85,9 @@ class DriveTrain final : private StepListener {
   void set_load_measurement(std::int32_t value);
   /// A pulse on STEP that does not come from the TMC429.
   void pulse_step(bool direction);
+  /// Pulses on STEP that do not come from the TMC429, from now on. @param rate as for StepInput::set_rate()
+  void set_step_input_rate(double rate);
+  double step_input_rate() const { return step_input_.rate(); }
   /// A contact is about to chatter: what the surroundings say of their events is new.
   void expect_other_events() { commit(); }
 
@@ -123,6 +127,7 @@ class DriveTrain final : private StepListener {
   std::optional<MotorShaft> motor_;
   Load load_;
   FieldTracker field_;
+  StepInput step_input_;
   Tick end_of_span_ = 0;
   bool watches_ramp_ = true;   ///< a change of velocity ends the span
   std::int32_t velocity_ = 0;  ///< of the ramp generator when the span began, with its fraction

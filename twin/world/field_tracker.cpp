@@ -43,19 +43,25 @@ FieldTracker::Speed FieldTracker::speed_of(const Tmc429::Motion& motion) const {
           turns_of(steps_per_second * drive_.microsteps_a_step)};
 }
 
-void FieldTracker::begin(Tick now, const Drive& drive, const Tmc429::Motion& motion) {
+double FieldTracker::other_velocity() const {
+  return turns_of(drive_.other_steps_per_second * drive_.microsteps_an_other_step);
+}
+
+void FieldTracker::begin(Tick now, const Drive& drive, const Tmc429::Motion& motion, double part_of_other_step) {
   begun_ = now;
   drive_ = drive;
   steps_.clear();
   start_position_ = position_;
-  const double within = drive.is_coarse ? 0 : part_of_step(motion) * drive.microsteps_a_step;
+  const double within = drive.is_coarse ? 0
+                                        : part_of_step(motion) * drive.microsteps_a_step +
+                                              part_of_other_step * drive.microsteps_an_other_step;
   start_angle_ = turns_of(static_cast<double>(position_) + within);
   start_speed_ = speed_of(motion);
 }
 
 Field FieldTracker::until(Tick now, const Tmc429::Motion& motion) const {
   Field field{.angle = start_angle_,
-              .velocity = drive_.is_coarse ? 0 : start_speed_.turns_per_second,
+              .velocity = drive_.is_coarse ? 0 : start_speed_.turns_per_second + other_velocity(),
               .acceleration = 0,
               .amplitude = drive_.amplitude,
               .energised = drive_.energised,
@@ -65,13 +71,12 @@ Field FieldTracker::until(Tick now, const Tmc429::Motion& motion) const {
               .steps = steps_};
   if (now == begun_ || drive_.is_coarse) return field;
   const double seconds = static_cast<double>(now - begun_) * seconds_per_tick;
-  const double start_velocity = start_speed_.turns_per_second;
-  const double velocity = speed_of(motion).turns_per_second;
-  if (start_velocity == 0 && velocity == 0) {
-    // Steps that come from elsewhere have no ramp: they are spread over the span.
+  const double velocity = speed_of(motion).turns_per_second + other_velocity();
+  if (field.velocity == 0 && velocity == 0) {
+    // Steps that nobody announced are spread over the span.
     field.velocity = turns_of(static_cast<double>(position_ - start_position_)) / seconds;
   } else {
-    field.acceleration = (velocity - start_velocity) / seconds;
+    field.acceleration = (velocity - field.velocity) / seconds;
   }
   return field;
 }

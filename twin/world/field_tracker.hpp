@@ -18,12 +18,14 @@ class FieldTracker {
  public:
   /// The coils' currents and the step size as the chips have them now.
   struct Drive {
-    double amplitude = 0;          ///< A, peak
-    bool energised = false;        ///< some bridge is on
-    bool coil_a_connected = true;  ///< that of the sine of MSTEP
-    bool coil_b_connected = true;  ///< that of its cosine
-    double microsteps_a_step = 1;  ///< of 1/256 full step, for a step of the motion controller upwards
-    bool is_coarse = false;        ///< single steps are to be told to the motor
+    double amplitude = 0;                 ///< A, peak
+    bool energised = false;               ///< some bridge is on
+    bool coil_a_connected = true;         ///< that of the sine of MSTEP
+    bool coil_b_connected = true;         ///< that of its cosine
+    double microsteps_a_step = 1;         ///< of 1/256 full step, for a step of the motion controller upwards
+    double other_steps_per_second = 0;    ///< from the step/direction connector
+    double microsteps_an_other_step = 1;  ///< of 1/256 full step
+    bool is_coarse = false;               ///< single steps are to be told to the motor
 
     friend bool operator==(const Drive&, const Drive&) = default;
   };
@@ -36,8 +38,8 @@ class FieldTracker {
   /// The driver's sequencer stands elsewhere, as after a reset: the field jumps there by the shortest way.
   void jump_to(std::uint32_t microstep_position, Tick tick);
 
-  /// A span begins.
-  void begin(Tick now, const Drive& drive, const Tmc429::Motion& motion);
+  /// A span begins. @param part_of_other_step StepInput::part_of_step()
+  void begin(Tick now, const Drive& drive, const Tmc429::Motion& motion, double part_of_other_step);
   Tick begun() const { return begun_; }
   const Drive& drive() const { return drive_; }
 
@@ -58,6 +60,7 @@ class FieldTracker {
     }
   };
   Speed speed_of(const Tmc429::Motion& motion) const;
+  double other_velocity() const;
 
   std::int64_t position_ = 0;
   Tick begun_ = 0;

@@ -27,14 +27,6 @@ World::Mounted bench() {
   return {.machine = LinearStageDimensions{}, .motor = motors().front()};
 }
 
-/// As start(), with two thirds of the full-scale current.
-void start_with_current(World& world) {
-  start(world);
-  world.transfer_tmc262(tmc262::datagram(tmc262::StallGuardAndCurrent::CurrentScale::of(20)));
-  world.transfer_tmc262(tmc262::datagram(tmc262::DriverConfiguration::LowSenseVoltage::set));
-  world.advance_to(20 * millisecond);
-}
-
 void drive(World& world, std::int32_t velocity) {
   write(world, tmc429::Mode::of(tmc429::RampMode::velocity));
   set<tmc429::MaximumVelocity>(world, std::abs(velocity));
@@ -65,6 +57,7 @@ const std::vector<Effect> effects{
     {{"load.spring", 0.1}, "rotor.load_angle", true},
     {{"load.spring_centre", -30}, "rotor.load_angle", true, Change{"load.spring", 0.1}},
     {{"load.jammed", 1}, "rotor.angle", false},
+    {{"step_direction.rate", -5'000}, "rotor.angle", false},
     {{"motor.ambient_temperature", 90}, "motor.winding_temperature", true},
     {{"coil_a.connected", 0}, "tmc262.open_load_a", true},
     {{"coil_b.connected", 0}, "tmc262.open_load_b", true},

@@ -107,6 +107,9 @@ class World final : private ShaftSurroundings {
   std::int32_t load_measurement() const { return tmc262().load_measurement(); }
   /// A pulse on the STEP input of the step/direction connector, which goes to the driver like those of the TMC429.
   void pulse_step_input(bool direction);
+  /// A pulse generator there. @param rate as for StepInput::set_rate()
+  void set_step_input_rate(double rate) { drive_train_.set_step_input_rate(rate); }
+  double step_input_rate() const { return drive_train_.step_input_rate(); }
   /// Motor supply in mV, 24 V at the start. The chips' logic has a supply of its own; below 7 V the TMC262 loses its
   /// registers.
   std::int32_t supply_voltage() const { return supply_voltage_; }

@@ -38,4 +38,12 @@ inline void start(World& world, int resolution = 0) {
   world.transfer_tmc262(tmc262::datagram(tmc262::DriverControl::Resolution::of(resolution)));
 }
 
+/// As start(), with two thirds of the full-scale current.
+inline void start_with_current(World& world) {
+  start(world);
+  world.transfer_tmc262(tmc262::datagram(tmc262::StallGuardAndCurrent::CurrentScale::of(20)));
+  world.transfer_tmc262(tmc262::datagram(tmc262::DriverConfiguration::LowSenseVoltage::set));
+  world.advance_to(20 * millisecond);
+}
+
 }  // namespace opentmcl::twin
