@@ -1,7 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <iterator>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scenario/scenario.hpp"
@@ -29,7 +32,7 @@ class ProblemList {
 template <class Names>
 std::string listed(const Names& names) {
   std::string text;
-  std::size_t left = names.size();
+  std::size_t left = std::size(names);
   for (const auto& name : names) {
     text += text.empty() ? "" : left == 1 ? " or " : ", ";
     text += name;
@@ -37,5 +40,8 @@ std::string listed(const Names& names) {
   }
   return text;
 }
+
+/// "did you mean kind?", or "expected a, b or c" when none is close.
+std::string nearest_or_all(std::string_view word, std::span<const std::string_view> known);
 
 }  // namespace opentmcl::scenario

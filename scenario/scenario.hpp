@@ -6,12 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "boards/twin/virtual_module.hpp"
 #include "firmware/hal/time.hpp"
 #include "firmware/spec/modules.hpp"
 #include "firmware/wire/datagram.hpp"
+#include "scenario/bench_setup.hpp"
 #include "scenario/condition.hpp"
-#include "twin/world/quantities.hpp"
 
 namespace opentmcl::scenario {
 
@@ -19,11 +18,6 @@ namespace opentmcl::scenario {
 struct Place {
   unsigned line = 0;
   unsigned column = 0;
-};
-
-struct Assignment {
-  const twin::Quantity* quantity;
-  double value;  ///< in its unit, and one that it can have
 };
 
 /// A TMCL command as a host would send it.
@@ -73,24 +67,15 @@ struct Recording {
   Microseconds before = 0;
 };
 
-struct Scenario {
+/// A bench and what happens at it.
+struct Scenario : BenchSetup {
   const ModuleDescription* module = &pd1161;
   std::string description;
   std::string program;        ///< path; empty: none
   Microseconds duration = 0;  ///< 0: no end
-  twin::MachineDimensions machine = twin::LinearStageDimensions{};
-  twin::EncoderProperties encoder;  ///< its kind is that of the module
-  /// Nothing: an ideal one, whose rotor is always where the field is.
-  std::optional<twin::MotorData> motor = twin::motors().front();
-  std::vector<Assignment> initial;  ///< the load first
   Recording recording;
   std::vector<Event> events;
   std::vector<Expectation> expectations;
-
-  /// Of a virtual module with this machine.
-  VirtualModule::Options board() const;
-  /// Of a world with it.
-  twin::World::Mounted mounted() const;
 };
 
 }  // namespace opentmcl::scenario

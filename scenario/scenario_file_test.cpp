@@ -177,7 +177,7 @@ TEST(ScenarioFile, KnowsWhatBelongsTogether) {
   EXPECT_EQ(problems_in("[machine]\nstart = \"60 mm\""),
             "f:3:9: start lies beyond a hard end: the travel is 100 mm, half of it on either side of 0\n");
   EXPECT_EQ(problems_in("event = 5"), "f:2:9: there can be several of these: expected [[event]]\n");
-  EXPECT_EQ(problems_in("machine = 5"), "f:2:11: expected the section [machine], found a number\n");
+  EXPECT_EQ(problems_in("machine = 5"), "f:2:11: expected the section [machine] or a name, found a number\n");
 }
 
 TEST(ScenarioFile, KnowsWhatTheMachineHas) {
@@ -208,6 +208,8 @@ TEST(ScenarioFile, KnowsTheDimensionsOfEveryMachine) {
   EXPECT_EQ(circular.home_mark_center, -90'000);
   EXPECT_EQ(circular.backlash, 200);
   EXPECT_EQ(circular.friction, 0.08);
+  EXPECT_TRUE(
+      std::holds_alternative<twin::RotaryAxisDimensions>(scenario_in("duration = '1 s'\nmachine = 'free'").machine));
   const Scenario shaft = scenario_in("duration = '1 s'\n[machine]\nkind = 'free'\ninertia = '68 g cm2'");
   EXPECT_EQ(std::get<twin::RotaryAxisDimensions>(shaft.machine).inertia, 68e-7);
 }
@@ -215,6 +217,7 @@ TEST(ScenarioFile, KnowsTheDimensionsOfEveryMachine) {
 TEST(ScenarioFile, TurnsTheModulesMotorUnlessToldOtherwise) {
   EXPECT_EQ(scenario_in("duration = '1 s'").motor, twin::motors().front());
   EXPECT_EQ(scenario_in("duration = '1 s'\n[motor]\nname = 'ideal'").motor, std::nullopt);
+  EXPECT_EQ(scenario_in("duration = '1 s'\nmotor = 'ideal'").motor, std::nullopt) << "a name alone";
   const Scenario changed = scenario_in(R"(
     duration = "1 s"
     [motor]
@@ -227,7 +230,7 @@ TEST(ScenarioFile, TurnsTheModulesMotorUnlessToldOtherwise) {
   expected.winding_inductance = 7e-3;
   EXPECT_EQ(changed.motor, expected);
   EXPECT_EQ(changed.board().motor, expected);
-  EXPECT_EQ(changed.mounted().motor, expected);
+  EXPECT_EQ(changed.mounted(pd1161).motor, expected);
 }
 
 TEST(ScenarioFile, TakesTheLoadAsQuantitiesInTheBeginning) {

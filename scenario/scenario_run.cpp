@@ -29,10 +29,6 @@ std::optional<Reply> answer(VirtualModule& module, const Command& command) {
 
 }  // namespace
 
-void ScenarioRun::prepare(const Scenario& scenario, twin::World& world) {
-  for (const Assignment& assignment : scenario.initial) write(world, assignment);
-}
-
 ScenarioRun::ScenarioRun(const Scenario& scenario, const VirtualModule& module, Listener listener)
     : begin_(module.now()),
       listener_(std::move(listener)),

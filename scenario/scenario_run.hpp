@@ -38,9 +38,6 @@ class ScenarioRun final : public BenchActor {
   static constexpr Microseconds look_interval = one_millisecond;
   using Listener = std::function<void(const Report& report)>;
 
-  /// What the scenario says about the world before the module gets its supply.
-  static void prepare(const Scenario& scenario, twin::World& world);
-
   /// The run begins at module.now(). All must outlive this; add it to the module as an actor.
   ScenarioRun(const Scenario& scenario, const VirtualModule& module, Listener listener = {});
 

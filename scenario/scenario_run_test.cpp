@@ -20,7 +20,7 @@ class Bench {
   explicit Bench(std::string_view text) : Bench(read_scenario(text)) {}
   explicit Bench(ScenarioFile file)
       : scenario_(std::move(file.scenario.value())), module_(*scenario_.module, {}, scenario_.board(), &trace_) {
-    ScenarioRun::prepare(scenario_, module_.world());
+    scenario_.write_initial(module_.world());
     module_.advance_to(module_.now());
     run_.emplace(scenario_, module_, [this](const Report& report) {
       if (report.kind == Report::Kind::end && report.time == scenario_.duration) return;

@@ -108,24 +108,28 @@ Json section_schema(std::span<const Key<Target>> keys) {
   return schema;
 }
 
-/// One of the kinds, each with its keys; without `kind` it is the first.
+/// One of the kinds, each with its keys, or its name alone; without `kind` it is the first.
 Json machine_schema() {
   Json kinds = Json::array();
-  for_each_machine_kind([&kinds](const MachineKind& kind, auto keys, const auto&) {
+  Json names = Json::array();
+  for_each_machine_kind([&kinds, &names](const MachineKind& kind, auto keys, const auto&) {
     Json schema = section_schema(keys);
     schema["description"] = kind.description;
     schema["properties"][std::string(machine_kind_key)] = {{"const", kind.name}};
     if (!kinds.empty()) schema["required"].push_back(machine_kind_key);
     kinds.push_back(std::move(schema));
+    names.push_back(kind.name);
   });
+  kinds.push_back({{"enum", std::move(names)}});
   return {{"anyOf", std::move(kinds)}};
 }
 
 Json motor_schema() {
   Json schema = section_schema(motor_keys());
-  schema["properties"][std::string(motor_name_key)] = {{"enum", motor_names()},
-                                                       {"description", "The first one if it is not given."}};
-  return schema;
+  const Json names{{"enum", motor_names()}};
+  schema["properties"][std::string(motor_name_key)] = names;
+  schema["properties"][std::string(motor_name_key)]["description"] = "The first one if it is not given.";
+  return {{"anyOf", {std::move(schema), names}}};
 }
 
 /// The part of the quantities' names behind the prefix.

@@ -5,10 +5,15 @@
 namespace opentmcl::scenario {
 namespace {
 
+constexpr std::size_t bench_section_count = 5;
+
+/// Those of the bench first.
 constexpr SectionName section_names[] = {
-    {machine_section, "What the motor turns.", false},
+    {machine_section, "What the motor turns; a kind alone stands for it with its usual dimensions.", false},
     {encoder_section, "The encoder on its shaft.", false},
-    {motor_section, "The motor: one of those that the twin knows by name, or such a one with other data.", false},
+    {motor_section,
+     "The motor: one of those that the twin knows by name, or such a one with other data; a name alone stands for it.",
+     false},
     {load_section, "What acts on its shaft in the beginning: the quantities load.torque, load.pull and so on.", false},
     {initial_section, "Quantities as they are before the module gets its supply.", false},
     {record_section, "What is written down.", false},
@@ -110,6 +115,10 @@ constexpr Key<Expectation> expect[] = {
 
 std::span<const SectionName> sections() {
   return section_names;
+}
+
+std::span<const SectionName> bench_sections() {
+  return sections().first(bench_section_count);
 }
 
 std::span<const Key<Scenario>> root_keys() {

@@ -68,6 +68,8 @@ struct SectionName {
 };
 
 std::span<const SectionName> sections();
+/// Those of them that say what stands on the bench.
+std::span<const SectionName> bench_sections();
 
 std::span<const Key<Scenario>> root_keys();
 std::span<const Key<twin::EncoderProperties>> encoder_keys();

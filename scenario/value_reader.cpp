@@ -23,12 +23,12 @@ constexpr int deepest_name = 4;
 }  // namespace
 
 ValueReader::ValueReader(ProblemList& problems) : problems_(problems), module_(nullptr) {
-  set_bench(Scenario{});
+  set_bench(pd1161, {});
 }
 
-void ValueReader::set_bench(const Scenario& scenario) {
-  module_ = scenario.module;
-  world_.emplace(nullptr, scenario.mounted());
+void ValueReader::set_bench(const ModuleDescription& module, const BenchSetup& bench) {
+  module_ = &module;
+  world_.emplace(nullptr, bench.mounted(module));
 }
 
 void ValueReader::complain_of_kind(const toml::node& node, std::string_view expected) {

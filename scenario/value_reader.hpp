@@ -29,8 +29,8 @@ class ValueReader {
   /// Until it is told otherwise, values are for the default module on the default machine.
   explicit ValueReader(ProblemList& problems);
 
-  /// Commands are for this module, and quantities those of this machine.
-  void set_bench(const Scenario& scenario);
+  /// Commands are for this module, and quantities those of this bench.
+  void set_bench(const ModuleDescription& module, const BenchSetup& bench);
 
   std::optional<Value> read(const toml::node& node, ValueType type, const AllowedValues& allowed);
   /// In the order of the file. Those with mistakes are left out.

@@ -85,7 +85,7 @@ Result<std::unique_ptr<BenchSession>> BenchSession::open(const Options& options)
 Result<void> BenchSession::prepare_recording() {
   scenario::Recording& recording = scenario_.recording;
   if (recording.file.empty()) return {};
-  const twin::World world(nullptr, scenario_.mounted());
+  const twin::World world(nullptr, scenario_.mounted(*scenario_.module));
   if (recording.signals.empty()) {
     for (const char* const name : usual_signals) {
       if (!scenario::objection_to_signal(name, world)) recording.signals.emplace_back(name);

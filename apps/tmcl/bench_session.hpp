@@ -42,7 +42,7 @@ class BenchSession {
   /// Of the module's world; nullptr without a recording.
   twin::TraceObserver* observer() { return recorder_ ? &*recorder_ : nullptr; }
   /// Before the module gets its supply.
-  void prepare(VirtualModule& module) { scenario::ScenarioRun::prepare(scenario_, module.world()); }
+  void prepare(VirtualModule& module) { scenario_.write_initial(module.world()); }
   /// The run begins now. @param ended called when it has come to its end
   void start(VirtualModule& module, std::function<void()> ended);
   /// The run is over. Errors: refused for failed expectations, input_output.
