@@ -3,12 +3,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "firmware/hal/hal.hpp"
 #include "firmware/spec/modules.hpp"
+#include "scenario/bench_setup.hpp"
 
 namespace opentmcl::server {
 
@@ -36,7 +38,8 @@ struct FarmModule {
   std::string program;                           ///< TMCL source; empty: none
   bool starts_program = true;
   std::string eeprom;  ///< file behind the EEPROM; empty: fresh from the factory each time
-  bool has_stage = true;
+  /// What its motor is and turns; shared by those alike.
+  std::shared_ptr<const scenario::BenchSetup> bench = std::make_shared<scenario::BenchSetup>();
 };
 
 struct FarmRs485Line {

@@ -11,7 +11,11 @@
 
 #include "firmware/spec/global_parameters.hpp"
 #include "firmware/spec/lookup.hpp"
-#include "lang/suggestion.hpp"
+#include "lang/diagnostic.hpp"
+#include "scenario/bench_reader.hpp"
+#include "scenario/problem.hpp"
+#include "scenario/section.hpp"
+#include "scenario/toml_place.hpp"
 #include "server/farm_keys.hpp"
 
 namespace opentmcl::server {
@@ -29,17 +33,10 @@ static_assert(host_address ==
               global_parameter_columns[static_cast<std::size_t>(tmcm1110.id)][row_of(GlobalParameter::can_reply_id)]
                   .default_value);
 
-std::string in_quotes(std::string_view text) {
-  return '"' + std::string(text) + '"';
-}
-
-/// ": did you mean kind?", or all there are when none is close.
-std::string hint(std::string_view wrong, std::span<const std::string_view> known) {
-  lang::Suggestion suggestion(wrong);
-  for (const std::string_view name : known) suggestion.consider(name);
-  const std::string text = suggestion.text();
-  return text.empty() ? ": expected " + joined_with_or(known) : ": " + text;
-}
+using lang::in_quotes;
+using scenario::listed;
+using scenario::nearest_or_all;
+using scenario::place_of;
 
 bool is_name(std::string_view text) {
   constexpr std::string_view allowed = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_.";
@@ -68,11 +65,6 @@ class Reader {
   }
 
  private:
-  struct Problem {
-    toml::source_position at;
-    std::string message;
-  };
-
   void read(const toml::table& root) {
     for (const auto& [key, node] : root) {
       if (std::find(farm_sections, std::end(farm_sections), key.str()) == std::end(farm_sections)) continue;
@@ -84,24 +76,21 @@ class Reader {
     for_each(root, farm_rs485_section, [this](const toml::table& table) { read_rs485_line(table); });
     for_each(root, farm_can_section, [this](const toml::table& table) { read_can_bus(table); });
     for_each(root, farm_module_section, [this](const toml::table& table) { read_module(table); });
-    if (file_.description.modules.empty() && problems_.empty()) {
+    if (file_.description.modules.empty() && problems_.size() == 0) {
       report(root.source(), "a farm has modules: expected at least one [[module]]");
     }
   }
 
   FarmFile finish() {
-    std::stable_sort(problems_.begin(), problems_.end(), [](const Problem& a, const Problem& b) {
-      return std::pair(a.at.line, a.at.column) < std::pair(b.at.line, b.at.column);
-    });
-    for (const Problem& problem : problems_) {
-      file_.problems.push_back(path_ + ':' + std::to_string(problem.at.line) + ':' + std::to_string(problem.at.column) +
-                               ": error: " + problem.message);
+    for (const scenario::Problem& problem : problems_.take_sorted()) {
+      file_.problems.push_back(path_ + ':' + std::to_string(problem.place.line) + ':' +
+                               std::to_string(problem.place.column) + ": error: " + problem.message);
     }
     return std::move(file_);
   }
 
   void report(const toml::source_region& where, std::string message) {
-    problems_.push_back({where.begin, std::move(message)});
+    problems_.complain(place_of(where), std::move(message));
   }
   /// At the key's value; at the section when it lacks the key.
   void report(const toml::table& table, std::string_view key, std::string message) {
@@ -128,7 +117,8 @@ class Reader {
       if (key == keys.end()) {
         std::vector<std::string_view> known(other_keys.begin(), other_keys.end());
         for (const FarmKey<Target>& each : keys) known.push_back(each.name);
-        report(name.source(), section + " has no key " + in_quotes(name.str()) + hint(name.str(), known));
+        report(name.source(),
+               section + " has no key " + in_quotes(name.str()) + ": " + nearest_or_all(name.str(), known));
         continue;
       }
       if (std::optional<FarmValue> value = read_value(node, *key)) key->store(target, std::move(*value));
@@ -157,8 +147,8 @@ class Reader {
     if (!node.is_string()) return refuse("no text");
     value.text = node.as_string()->get();
     if (!key.choices.empty() && std::find(key.choices.begin(), key.choices.end(), value.text) == key.choices.end()) {
-      report(node.source(),
-             "no " + std::string(key.name) + " is called " + in_quotes(value.text) + hint(value.text, key.choices));
+      report(node.source(), "no " + std::string(key.name) + " is called " + in_quotes(value.text) + ": " +
+                                nearest_or_all(value.text, key.choices));
       return std::nullopt;
     }
     const bool is_good = key.kind == FarmValueKind::name    ? is_name(value.text)
@@ -197,8 +187,11 @@ class Reader {
 
   void read_module(const toml::table& table) {
     FarmModuleEntry entry;
-    read_keys(table, farm_module_keys(), "a [[module]]", entry);
+    std::vector<std::string_view> bench_keys;
+    for (const scenario::SectionName& section : scenario::bench_sections()) bench_keys.push_back(section.name);
+    read_keys(table, farm_module_keys(), "a [[module]]", entry, bench_keys);
     FarmModule& module = entry.module;
+    module.bench = std::make_shared<scenario::BenchSetup>(bench_.read(table, *module.kind));
     if (module.name.empty()) check_name(table, module.name);
     if (!entry.rs485.empty())
       module.rs485 = find_bus(table, farm_rs485_section, entry.rs485, file_.description.rs485_lines);
@@ -218,7 +211,7 @@ class Reader {
     const bool is_on_bus = !entry.rs485.empty() || !entry.can.empty();
     constexpr std::string_view door_keys[] = {"link", "tcp", "slcan_link", "can_udp", "rs485", "can"};
     if (!contains_any(table, door_keys)) {
-      report(table.source(), "the module has no door: expected " + joined_with_or(door_keys));
+      report(table.source(), "the module has no door: expected " + listed(door_keys));
     }
     if (!has_can(module.kind->id)) {
       for (const std::string_view key : {"slcan_link", "can_udp", "can"}) {
@@ -307,9 +300,9 @@ class Reader {
       known.push_back(bus.name);
     }
     const std::string kind = "[[" + std::string(section) + "]]";
-    report(
-        table, section,
-        "no " + kind + " is called " + in_quotes(name) + (known.empty() ? ": the file has none" : hint(name, known)));
+    report(table, section,
+           "no " + kind + " is called " + in_quotes(name) +
+               (known.empty() ? ": the file has none" : ": " + nearest_or_all(name, known)));
     return std::nullopt;
   }
 
@@ -327,7 +320,7 @@ class Reader {
     std::vector<std::string> numbers;
     for (const std::uint32_t each : known) numbers.push_back(std::to_string(each));
     const std::vector<std::string_view> words(numbers.begin(), numbers.end());
-    report(table, key, "no module knows " + std::to_string(rate) + " bit/s: expected " + joined_with_or(words));
+    report(table, key, "no module knows " + std::to_string(rate) + " bit/s: expected " + listed(words));
   }
 
   void note_doors(const toml::table& table, const FarmDoors& doors) {
@@ -347,7 +340,9 @@ class Reader {
   const std::string path_;
   const fs::path folder_;
   FarmFile file_;
-  std::vector<Problem> problems_;
+  scenario::ProblemList problems_;
+  scenario::ValueReader values_{problems_};
+  scenario::BenchReader bench_{problems_, values_, "module."};
   std::map<std::string, toml::source_index> used_;                         // and in which line
   std::map<std::pair<std::string, std::int64_t>, std::string> addresses_;  // by bus and address, the module
 };

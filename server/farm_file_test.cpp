@@ -68,7 +68,7 @@ address = 4
   EXPECT_EQ(9600u, pump.wire);
   EXPECT_EQ("/tmp/pump-can", pump.doors.slcan_link);
   EXPECT_EQ("farms/pump.eeprom", pump.eeprom);
-  EXPECT_FALSE(pump.has_stage);
+  EXPECT_TRUE(std::holds_alternative<twin::RotaryAxisDimensions>(pump.bench->machine));
   EXPECT_FALSE(pump.starts_program);
   ASSERT_EQ(1u, farm.rs485_lines.size());
   EXPECT_EQ(19'200u, farm.rs485_lines[0].baud_rate);
@@ -107,6 +107,58 @@ eeprom = "{name}.eeprom"
   EXPECT_EQ("farms/axis-3.eeprom", last.eeprom);
 }
 
+TEST(FarmFile, DescribesTheBenchOfAModuleAsAScenarioDoes) {
+  const FarmFile file = read(R"(
+[[module]]
+name = "turntable"
+count = 2
+tcp = 0
+machine = { kind = "circular", gear_numerator = 40 }
+motor = { name = "QSH6018-86-28-310", rotor_inertia = "900 g cm2" }
+load = { table_torque = "0.5 Nm" }
+
+[[module]]
+name = "gantry"
+kind = "tmcm1110"
+tcp = 0
+[module.machine]
+pitch = "5 mm"
+[module.encoder]
+lines = 500
+[module.initial]
+supply_voltage = "12 V"
+
+[[module]]
+name = "usual"
+tcp = 0
+
+[[module]]
+name = "short"
+tcp = 0
+machine = "free"
+motor = "ideal"
+)");
+  ASSERT_THAT(file.problems, IsEmpty());
+  const std::vector<FarmModule>& modules = file.description.modules;
+  ASSERT_EQ(5u, modules.size());
+  EXPECT_EQ(modules[0].bench, modules[1].bench) << "modules alike share it";
+  const scenario::BenchSetup& turntable = *modules[0].bench;
+  EXPECT_EQ(40, std::get<twin::CircularAxisDimensions>(turntable.machine).gear_numerator);
+  EXPECT_EQ("QSH6018-86-28-310", turntable.motor->name);
+  EXPECT_EQ(900e-7, turntable.motor->rotor_inertia);
+  ASSERT_EQ(1u, turntable.initial.size());
+  EXPECT_EQ("load.table_torque", turntable.initial[0].quantity->name);
+  const scenario::BenchSetup& gantry = *modules[2].bench;
+  EXPECT_EQ(5'000, std::get<twin::LinearStageDimensions>(gantry.machine).pitch);
+  EXPECT_EQ(500, gantry.encoder.lines);
+  EXPECT_EQ(12, gantry.initial.at(0).value);
+  const scenario::BenchSetup& usual = *modules[3].bench;
+  EXPECT_TRUE(std::holds_alternative<twin::LinearStageDimensions>(usual.machine));
+  EXPECT_EQ(twin::motors().front(), usual.motor) << "the module's own, as in tmcl sim";
+  EXPECT_TRUE(std::holds_alternative<twin::RotaryAxisDimensions>(modules[4].bench->machine));
+  EXPECT_EQ(std::nullopt, modules[4].bench->motor);
+}
+
 TEST(FarmFile, ReportsAllMistakesWithTheirPlaceAndTheNearestName) {
   EXPECT_THAT(
       problems(R"([[module]]
@@ -130,15 +182,15 @@ name = "axis one"
 rs485 = "lin"
 start = "yes"
 )"),
-      ElementsAre("farms/my.toml:3:1: error: a [[module]] has no key \"kidn\": did you mean kind?",
-                  "farms/my.toml:4:7: error: \"TCP port 6000\" is taken in line 14",
-                  "farms/my.toml:7:8: error: \"pump\" is taken in line 2",
-                  "farms/my.toml:8:8: error: no kind is called \"pd1611\": did you mean pd1161?",
+      ElementsAre("farms/my.toml:3:1: error: a [[module]] has no key 'kidn': did you mean kind?",
+                  "farms/my.toml:4:7: error: 'TCP port 6000' is taken in line 14",
+                  "farms/my.toml:7:8: error: 'pump' is taken in line 2",
+                  "farms/my.toml:8:8: error: no kind is called 'pd1611': did you mean pd1161?",
                   "farms/my.toml:9:7: error: tcp is 70000: expected a whole number, 0 to 65535",
                   "farms/my.toml:10:8: error: link is no text: expected a path",
                   HasSubstr("farms/my.toml:15:13: error: no module knows 9601 bit/s: expected 9600, 14400"),
-                  "farms/my.toml:18:8: error: name is \"axis one\": expected a name of letters, digits, -, _ and .",
-                  "farms/my.toml:19:9: error: no [[rs485]] is called \"lin\": did you mean line?",
+                  "farms/my.toml:18:8: error: name is 'axis one': expected a name of letters, digits, -, _ and .",
+                  "farms/my.toml:19:9: error: no [[rs485]] is called 'lin': did you mean line?",
                   "farms/my.toml:20:9: error: start is no truth value: expected true or false"));
 }
 
@@ -167,7 +219,7 @@ constexpr Mistake mistakes[] = {
     {"single_brackets", "[module]\nname = \"a\"\ntcp = 0\n",
      "my.toml:1:2: error: expected [[module]], with two brackets"},
     {"unknown_section", "[[module]]\nname=\"a\"\ntcp=0\n[[modul]]\n",
-     ":4:3: error: a farm has no key \"modul\": did you mean"},
+     ":4:3: error: a farm has no key 'modul': did you mean"},
     {"no_name", "[[module]]\ntcp = 0\n", ":1:1: error: the section lacks a name"},
     {"no_door", "[[module]]\nname = \"a\"\n", ":1:1: error: the module has no door: expected link, tcp"},
     {"line_without_door", "[[rs485]]\nname = \"l\"\n[[module]]\nname=\"a\"\nrs485=\"l\"\n",
@@ -188,11 +240,21 @@ constexpr Mistake mistakes[] = {
     {"same_address",
      "[[rs485]]\nname=\"l\"\ntcp=0\n[[module]]\nname=\"a\"\nrs485=\"l\"\naddress=3\n[[module]]\nname=\"b\"\nrs485="
      "\"l\"\naddress = 3\n",
-     ":11:11: error: address 3 on this bus is that of \"a\""},
+     ":11:11: error: address 3 on this bus is that of 'a'"},
     {"no_such_program", "[[module]]\nname=\"a\"\ntcp=0\nprogram = \"nowhere.tmc\"\n",
-     ":4:11: error: there is no file \"farms/nowhere.tmc\""},
+     ":4:11: error: there is no file 'farms/nowhere.tmc'"},
+    {"machine", "[[module]]\nname=\"a\"\ntcp=0\nmachine = \"stge\"\n",
+     ":4:11: error: expected stage, circular or free, found 'stge'; did you mean stage?"},
+    {"key_of_machine", "[[module]]\nname=\"a\"\ntcp=0\n[module.machine]\npitsh = 2\n",
+     ":5:1: error: [module.machine] of kind stage has no 'pitsh': did you mean pitch?"},
+    {"unit_of_motor", "[[module]]\nname=\"a\"\ntcp=0\nmotor = { holding_torque = \"0.5 N\" }\n",
+     ":4:33: error: 'N' is not the unit of a torque"},
+    {"load_of_ideal_motor", "[[module]]\nname=\"a\"\ntcp=0\nmotor=\"ideal\"\nload = { torque = 1 }\n",
+     ":5:10: error: load.torque does not exist with an ideal motor"},
+    {"misspelt_bench", "[[module]]\nname=\"a\"\ntcp=0\nmotr = \"ideal\"\n",
+     ":4:1: error: a [[module]] has no key 'motr': did you mean motor?"},
     {"no_group", "[[module]]\nname=\"a\"\nkind=\"tmcm1110\"\ncan_udp = \"239.1.1.1\"\n",
-     ":4:11: error: can_udp is \"239.1.1.1\": expected GROUP:PORT"},
+     ":4:11: error: can_udp is '239.1.1.1': expected GROUP:PORT"},
 };
 
 INSTANTIATE_TEST_SUITE_P(, FarmFileMistake, testing::ValuesIn(mistakes),

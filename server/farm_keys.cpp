@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "firmware/spec/global_parameters.hpp"
+#include "scenario/problem.hpp"
+#include "scenario/section.hpp"
 #include "server/farm_file.hpp"
 
 namespace opentmcl::server {
@@ -16,7 +18,6 @@ constexpr std::int64_t slowest_wire = 300;
 constexpr std::int64_t fastest_wire = 1'000'000;
 constexpr std::string_view kinds[] = {pd1161.argument, tmcm1110.argument};
 constexpr std::string_view link_kinds[] = {"usb", "rs485", "rs232"};
-constexpr std::string_view machines[] = {"stage", "free"};
 
 template <class Target>
 constexpr FarmKey<Target> name_key{"name", FarmValueKind::name, "What it is called; unique in the file.",
@@ -81,9 +82,6 @@ constexpr FarmKey<FarmModuleEntry> module_keys[] = {
      [](FarmModuleEntry& entry, FarmValue&& value) { entry.module.starts_program = value.truth; }},
     {"eeprom", FarmValueKind::path, "File that keeps the EEPROM; made if it does not exist.",
      [](FarmModuleEntry& entry, FarmValue&& value) { entry.module.eeprom = std::move(value.text); }},
-    {"machine", FarmValueKind::text, "What the motor turns; stage if not given.",
-     [](FarmModuleEntry& entry, FarmValue&& value) { entry.module.has_stage = value.text == machines[0]; }, 0, 0,
-     machines},
 };
 
 constexpr FarmKey<FarmRs485Line> line_keys[] = {
@@ -120,6 +118,16 @@ std::string reference(std::string_view heading, std::span<const FarmKey<Target>>
   return text;
 }
 
+/// Rows of the sections that a [[module]] shares with a scenario.
+std::string bench_reference() {
+  std::string text;
+  for (const scenario::SectionName& section : scenario::bench_sections()) {
+    text += "| `" + std::string(section.name) + "` | as in a [scenario](scenarios.md#the-file) | " +
+            std::string(section.description) + " |\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::span<const FarmKey<FarmDescription>> farm_keys() {
@@ -138,18 +146,9 @@ std::span<const FarmKey<FarmCanBus>> farm_can_keys() {
   return bus_keys;
 }
 
-std::string joined_with_or(std::span<const std::string_view> words) {
-  std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (i > 0) text += i + 1 == words.size() ? " or " : ", ";
-    text += words[i];
-  }
-  return text;
-}
-
 std::string farm_expectation(FarmValueKind kind, std::int64_t lowest, std::int64_t highest,
                              std::span<const std::string_view> choices) {
-  if (!choices.empty()) return joined_with_or(choices);
+  if (!choices.empty()) return scenario::listed(choices);
   switch (kind) {
     case FarmValueKind::name:
       return "a name of letters, digits, -, _ and .";
@@ -168,8 +167,8 @@ std::string farm_expectation(FarmValueKind kind, std::int64_t lowest, std::int64
 }
 
 std::string farm_file_reference() {
-  return reference("At the top", farm_keys()) + '\n' + reference("[[module]]", farm_module_keys()) + '\n' +
-         reference("[[rs485]]: a line with several modules", farm_rs485_keys()) + '\n' +
+  return reference("At the top", farm_keys()) + '\n' + reference("[[module]]", farm_module_keys()) + bench_reference() +
+         '\n' + reference("[[rs485]]: a line with several modules", farm_rs485_keys()) + '\n' +
          reference("[[can]]: a bus with several modules", farm_can_keys());
 }
 

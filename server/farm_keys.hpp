@@ -54,8 +54,6 @@ std::span<const FarmKey<FarmCanBus>> farm_can_keys();
 /// What a key takes, in words: "a whole number, 1 to 255".
 std::string farm_expectation(FarmValueKind kind, std::int64_t lowest, std::int64_t highest,
                              std::span<const std::string_view> choices);
-/// "usb, rs485 or rs232"
-std::string joined_with_or(std::span<const std::string_view> words);
 
 inline constexpr std::string_view farm_module_section = "module";
 inline constexpr std::string_view farm_rs485_section = "rs485";

@@ -136,10 +136,11 @@ Result<void> FarmSite::build_module(std::size_t index) {
   plug_in(built.doors->tcp_port(), hal::PortKind::usb);
   if (wanted.rs485) ports.push_back({&lines_[*wanted.rs485]->line.connect(), hal::PortKind::rs485});
 
-  VirtualModule::Options board;
+  VirtualModule::Options board = wanted.bench->board();
   board.can = built.can;
-  if (!wanted.has_stage) board.machine = twin::RotaryAxisDimensions{};
+  board.tables = tables_;
   built.module = std::make_unique<VirtualModule>(*wanted.kind, std::move(ports), board);
+  wanted.bench->write_initial(built.module->world());
   for (const auto& wire : built.wires) wire->connect(*built.module);
   if (wanted.rs485) lines_[*wanted.rs485]->line.add(*built.module);
   return built.eeprom ? built.eeprom->load(*built.module) : Result<void>();

@@ -69,6 +69,7 @@ class FarmSite {
 
   boost::asio::io_context& events_;
   FarmDescription description_;
+  std::shared_ptr<twin::TorqueTables> tables_ = std::make_shared<twin::TorqueTables>();  ///< of all motors
   Programs programs_;
   WallClock clock_;
   std::vector<std::unique_ptr<Line>> lines_;

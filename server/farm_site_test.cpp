@@ -205,6 +205,30 @@ eeprom = "one.eeprom"
   EXPECT_EQ(7, ask(*connect("one"), {1, {ggp, 66, 0, 0}}).value);
 }
 
+TEST_F(FarmSiteTest, GivesEachModuleItsBench) {
+  build(R"(
+[[module]]
+name = "loaded"
+count = 2
+tcp = 0
+load = { torque = "0.1 Nm" }
+initial = { supply_voltage = "20 V" }
+
+[[module]]
+name = "ideal"
+tcp = 0
+motor = "ideal"
+)");
+  for (const std::size_t index : {0U, 1U}) {
+    const twin::World& world = site->module(index).world();
+    ASSERT_TRUE(world.motor().has_value());
+    EXPECT_EQ(world.motor()->motor(), twin::motors().front());
+    EXPECT_EQ(world.load().torque, 0.1);
+    EXPECT_EQ(world.supply_voltage(), 20'000);
+  }
+  EXPECT_FALSE(site->module(2).world().motor().has_value());
+}
+
 TEST_F(FarmSiteTest, NamesTheModuleThatCannotBeBuilt) {
   fs::create_directory(folder / "taken");
   const FarmFile file = read_farm("[[module]]\nname = \"pump\"\nlink = \"taken\"\n", (folder / "farm.toml").string());

@@ -82,7 +82,7 @@ RULES = (
     Rule("client", ("firmware/spec", "firmware/wire"), ANY_SYSTEM_HEADER),
     Rule(
         "server",
-        ("client", "lang", "boards/twin", "twin", "firmware/hal", "firmware/spec", "firmware/wire"),
+        ("client", "lang", "scenario", "boards/twin", "twin", "firmware/hal", "firmware/spec", "firmware/wire"),
         ANY_SYSTEM_HEADER,
     ),
     Rule("apps", ("firmware", "boards/twin", "twin", "lang", "scenario", "client", "server"), ANY_SYSTEM_HEADER),
