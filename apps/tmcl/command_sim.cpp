@@ -18,6 +18,7 @@
 #include "apps/tmcl/source_program.hpp"
 #include "apps/tmcl/status_line.hpp"
 #include "boards/twin/virtual_module.hpp"
+#include "scenario/section.hpp"
 #include "server/kept_eeprom.hpp"
 #include "server/live_simulation.hpp"
 #include "server/module_setup.hpp"
@@ -37,6 +38,7 @@ struct SimOptions {
   std::string eeprom;
   std::string program;
   std::string machine = "stage";
+  std::string motor;
   BenchSession::Options bench;
   bool no_start = false;
   bool quiet = false;
@@ -77,6 +79,18 @@ void introduce(const Context& context, const ModuleDescription& module, const Si
     introduce_as_text(module, endpoints);
   }
   std::fflush(stdout);
+}
+
+std::vector<std::string> machine_kinds() {
+  std::vector<std::string> names;
+  scenario::for_each_machine_kind(
+      [&names](const scenario::MachineKind& kind, auto, const auto&) { names.emplace_back(kind.name); });
+  return names;
+}
+
+std::vector<std::string> motor_names() {
+  const std::vector<std::string_view> names = scenario::motor_names();
+  return {names.begin(), names.end()};
 }
 
 /// Where the slider of a stage stands, from the middle of its travel; nothing for a free shaft.
@@ -121,7 +135,11 @@ Result<void> run_sim(const Context& context, const SimOptions& options) {
     const Result<const ModuleDescription*> found = named_module(options.module);
     if (!found) return found.error();
     scenario.module = *found;
-    if (options.machine == "free") scenario.machine = twin::RotaryAxisDimensions{};
+    scenario::for_each_machine_kind([&](const scenario::MachineKind& kind, auto, const auto& dimensions) {
+      if (kind.name == options.machine) scenario.machine = dimensions;
+    });
+    if (options.motor == scenario::ideal_motor) scenario.motor = std::nullopt;
+    if (const twin::MotorData* const motor = twin::find_motor(options.motor)) scenario.motor = *motor;
   }
   const ModuleDescription& description = *scenario.module;
   const Result<double> speed = parse_speed(options.speed);
@@ -241,14 +259,19 @@ void add_sim(CLI::App& app, Context& context) {
   CLI::Option* machine =
       command
           ->add_option("--machine", options->machine,
-                       "what the motor turns: a linear stage of 100 mm with its switches, or a free shaft without end")
-          ->check(CLI::IsMember({"stage", "free"}))
+                       "what the motor turns: a linear stage of 100 mm with its switches, a table behind a gear with a "
+                       "home mark, or a free shaft without end")
+          ->check(CLI::IsMember(machine_kinds()))
           ->capture_default_str();
+  CLI::Option* motor =
+      command->add_option("--motor", options->motor, "instead of the module's own; ideal: one that loses no step")
+          ->check(CLI::IsMember(motor_names()));
   command
       ->add_option("--scenario", options->bench.scenario,
                    "module, machine and what happens to them, from this file; the other options go before it")
       ->excludes(module)
-      ->excludes(machine);
+      ->excludes(machine)
+      ->excludes(motor);
   command->add_option("--record", options->bench.record, "write down signals: a file that ends in .vcd or .csv");
   command->add_option("--signals", options->bench.signals, "names of them, with commas: position,stage")
       ->delimiter(',');
