@@ -28,7 +28,7 @@ const toml::node* name_in(const toml::node& node, std::string_view key) {
 BenchSetup BenchReader::read(const toml::table& table, const ModuleDescription& module) {
   BenchSetup bench;
   if (const toml::node* const node = table.get(machine_section)) read_machine(*node, bench.machine);
-  if (const toml::table* const encoder = section(table, encoder_section)) read_encoder(*encoder, bench.encoder);
+  if (const toml::table* const encoder = section(table, encoder_section)) read_encoder(*encoder, module, bench.encoder);
   if (const toml::node* const node = table.get(motor_section)) read_motor(*node, bench.motor);
   values_.set_bench(module, bench);
   // Which quantities there are depends on all of the above.
@@ -75,9 +75,15 @@ void BenchReader::read_machine(const toml::node& node, twin::MachineDimensions& 
   });
 }
 
-void BenchReader::read_encoder(const toml::table& table, twin::EncoderProperties& encoder) {
+void BenchReader::read_encoder(const toml::table& table, const ModuleDescription& module,
+                               twin::EncoderProperties& encoder) {
   const std::size_t problems_before = problems_.size();
   read_section(values_, table, encoder_keys(), encoder, bracketed(encoder_section));
+  for (const Key<twin::EncoderProperties>& key : encoder_keys()) {
+    if (key.only_for == nullptr || key.only_for == &module || !table.contains(key.name)) continue;
+    values_.complain(place_of(*table.get(key.name)), std::string(key.name) + " is for the encoder of a " +
+                                                         key.only_for->name + ", and the module is a " + module.name);
+  }
   check(table, encoder);
   if (problems_.size() != problems_before) encoder = {};
 }

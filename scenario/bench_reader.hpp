@@ -27,7 +27,7 @@ class BenchReader {
   std::string bracketed(std::string_view section) const { return '[' + within_ + std::string(section) + ']'; }
   const toml::table* section(const toml::table& table, std::string_view name);
   void read_machine(const toml::node& node, twin::MachineDimensions& machine);
-  void read_encoder(const toml::table& table, twin::EncoderProperties& encoder);
+  void read_encoder(const toml::table& table, const ModuleDescription& module, twin::EncoderProperties& encoder);
   void read_motor(const toml::node& node, std::optional<twin::MotorData>& motor);
   bool is_table_or_name(const toml::node& node, std::string_view section);
   void check(const toml::table& table, const twin::LinearStageDimensions& stage);

@@ -61,10 +61,14 @@ class ConditionParser {
     result.left = quantity(begin, word);
     if (result.left == nullptr) return false;
     const std::size_t sign_begin = skip_spaces();
+    const std::string_view written = rest().substr(0, rest().find_first_not_of("<>=!"));
+    if (written.empty()) return truth(result, negated, sign_begin);
     const RelationSign* const found = std::find_if(
-        std::begin(signs), std::end(signs), [this](const RelationSign& sign) { return rest().starts_with(sign.text); });
-    if (found == std::end(signs) || negated) return truth(result, negated, sign_begin);
-    place_ += found->text.size();
+        std::begin(signs), std::end(signs), [written](const RelationSign& sign) { return sign.text == written; });
+    if (found == std::end(signs))
+      return fail(sign_begin, "expected < <= = != >= or >, found " + lang::in_quotes(written));
+    if (negated) return fail(sign_begin, "'not' only stands before a truth, not before a comparison");
+    place_ += written.size();
     result.relation = found->relation;
     return right_side(result) && tolerance(result);
   }

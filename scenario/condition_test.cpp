@@ -75,7 +75,8 @@ TEST(Condition, NamesTheMistakeAndItsPlace) {
   EXPECT_EQ(error("position > 5 and inptu.3"), "17 there is no quantity 'inptu.3': did you mean input.3?");
   EXPECT_EQ(error("position"), "8 expected < <= = != >= or > behind position, found the end");
   EXPECT_EQ(error("position is 5"), "9 expected < <= = != >= or > behind position, found 'is'");
-  EXPECT_EQ(error("not position = 5"), "13 expected < <= = != >= or > behind position, found '='");
+  EXPECT_EQ(error("not position = 5"), "13 'not' only stands before a truth, not before a comparison");
+  EXPECT_EQ(error("position => 5"), "9 expected < <= = != >= or >, found '=>'");
   EXPECT_EQ(error("position > 5 mm"), "13 'mm' behind a plain number: expected no unit");
   EXPECT_EQ(error("position > 5 xor input.2"), "13 expected 'and', 'or' or the end, found 'xor'");
   EXPECT_EQ(error("position > 5 within 3"), "13 'within' only stands behind =");

@@ -106,6 +106,11 @@ constexpr Key<Target> contact(std::string_view description) {
           .choices = contact_kinds};
 }
 
+constexpr Key<Encoder> only_for(const ModuleDescription& module, Key<Encoder> key) {
+  key.only_for = &module;
+  return key;
+}
+
 // ---- The tables
 
 constexpr Key<Stage> linear_stage[] = {
@@ -174,24 +179,31 @@ constexpr Key<Shaft> rotary_axis[] = {
 constexpr Key<Encoder> encoder[] = {
     truth<&Encoder::on_load_side, Encoder>("on_load_side", "Behind the backlash, not on the motor's shaft."),
     truth<&Encoder::reversed, Encoder>("reversed", "Counts down when the shaft angle rises."),
-    whole<&Encoder::lines, Encoder>("lines", {1, 100'000}, "TMCM-1110: lines a turn, four counts each."),
-    whole<&Encoder::null_position, Encoder>("null_position", {0, 399'999},
-                                            "TMCM-1110: count at which N begins, less than a turn."),
-    whole<&Encoder::null_width, Encoder>("null_width", {1, 399'999},
-                                         "TMCM-1110: counts for which N lasts, less than a turn."),
-    truth<&Encoder::null_level, Encoder>("null_level", "TMCM-1110: level of N there."),
-    number<Encoder>("magnet_offset", "deg", {-360, 360}, "PD-1161: angle of the magnet's null below that of the shaft.",
-                    [](Encoder& target, Value&& value) { target.magnet_offset = microsteps_of(value.number); }),
-    number<Encoder>(
-        "first_harmonic", "deg", {0, 20}, "PD-1161: error of a magnet off its axis.",
-        [](Encoder& target, Value&& value) { target.first_harmonic.amplitude = microsteps_of(value.number); }),
-    number<Encoder>("first_harmonic_phase", "deg", {-360, 360}, "PD-1161: where that error is.",
-                    [](Encoder& target, Value&& value) { target.first_harmonic.phase = microsteps_of(value.number); }),
-    number<Encoder>(
-        "second_harmonic", "deg", {0, 15}, "PD-1161: error of a magnet that is not round.",
-        [](Encoder& target, Value&& value) { target.second_harmonic.amplitude = microsteps_of(value.number); }),
-    number<Encoder>("second_harmonic_phase", "deg", {-360, 360}, "PD-1161: where that error is.",
-                    [](Encoder& target, Value&& value) { target.second_harmonic.phase = microsteps_of(value.number); }),
+    only_for(tmcm1110, whole<&Encoder::lines, Encoder>("lines", {1, 100'000}, "Lines a turn, four counts each.")),
+    only_for(tmcm1110, whole<&Encoder::null_position, Encoder>("null_position", {0, 399'999},
+                                                               "Count at which N begins, less than a turn.")),
+    only_for(tmcm1110, whole<&Encoder::null_width, Encoder>("null_width", {1, 399'999},
+                                                            "Counts for which N lasts, less than a turn.")),
+    only_for(tmcm1110, truth<&Encoder::null_level, Encoder>("null_level", "Level of N there.")),
+    only_for(pd1161, number<Encoder>(
+                         "magnet_offset", "deg", {-360, 360}, "Angle of the magnet's null below that of the shaft.",
+                         [](Encoder& target, Value&& value) { target.magnet_offset = microsteps_of(value.number); })),
+    only_for(pd1161, number<Encoder>("first_harmonic", "deg", {0, 20}, "Error of a magnet off its axis.",
+                                     [](Encoder& target, Value&& value) {
+                                       target.first_harmonic.amplitude = microsteps_of(value.number);
+                                     })),
+    only_for(pd1161, number<Encoder>("first_harmonic_phase", "deg", {-360, 360}, "Where that error is.",
+                                     [](Encoder& target, Value&& value) {
+                                       target.first_harmonic.phase = microsteps_of(value.number);
+                                     })),
+    only_for(pd1161, number<Encoder>("second_harmonic", "deg", {0, 15}, "Error of a magnet that is not round.",
+                                     [](Encoder& target, Value&& value) {
+                                       target.second_harmonic.amplitude = microsteps_of(value.number);
+                                     })),
+    only_for(pd1161, number<Encoder>("second_harmonic_phase", "deg", {-360, 360}, "Where that error is.",
+                                     [](Encoder& target, Value&& value) {
+                                       target.second_harmonic.phase = microsteps_of(value.number);
+                                     })),
 };
 
 /// With the ranges of twin/motors/motor_table.py.

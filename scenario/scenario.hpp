@@ -72,6 +72,7 @@ struct Scenario : BenchSetup {
   const ModuleDescription* module = &pd1161;
   std::string description;
   std::string program;        ///< path; empty: none
+  Place program_place;        ///< of that path in the file
   Microseconds duration = 0;  ///< 0: no end
   Recording recording;
   std::vector<Event> events;

@@ -22,6 +22,7 @@ class Reader {
     std::vector<std::string_view> section_names;
     for (const SectionName& known : sections()) section_names.push_back(known.name);
     read_section(values_, file, root_keys(), scenario, "the scenario", section_names);
+    if (const toml::node* const program = file.get(program_key)) scenario.program_place = place_of(*program);
     static_cast<BenchSetup&>(scenario) = bench_.read(file, *scenario.module);
     if (const toml::table* const table = section(file, record_section)) {
       read_section(values_, *table, record_keys(), scenario.recording, "[record]");
@@ -80,7 +81,6 @@ class Reader {
       complain(place_of(*table.get("file")),
                "expected a name that ends in .vcd or .csv, found " + lang::in_quotes(recording.file));
     }
-    if (recording.every == 0) complain(place_of(*table.get("every")), "expected a time greater than 0");
     need(table, "before", "when");
   }
 

@@ -77,6 +77,8 @@ TEST(ScenarioFile, SaysWhatThereIsAndWhatHappens) {
   )");
   EXPECT_EQ(scenario.module, &tmcm1110);
   EXPECT_EQ(scenario.program, "go.tmc");
+  EXPECT_EQ(scenario.program_place.line, 3u);
+  EXPECT_EQ(scenario.program_place.column, 15u);
   EXPECT_EQ(scenario.duration, 120'000'000u);
   const auto& stage = std::get<twin::LinearStageDimensions>(scenario.machine);
   EXPECT_EQ(stage.pitch, 5'000);
@@ -171,11 +173,13 @@ TEST(ScenarioFile, KnowsWhatBelongsTogether) {
             "f:4:13: answer_to means nothing without at: expected both or none\n");
   EXPECT_EQ(problems_in("[machine]\nkind = \"free\"\npitch = 3"),
             "f:4:1: [machine] of kind free has no 'pitch': expected kind, inertia or friction\n");
-  EXPECT_EQ(problems_in("[encoder]\nlines = 100\nnull_position = 400"),
-            "f:4:17: null_position must be less than a turn, which has 400 counts\n");
+  EXPECT_EQ(problems_in("module = \"tmcm1110\"\n[encoder]\nlines = 100\nnull_position = 400"),
+            "f:5:17: null_position must be less than a turn, which has 400 counts\n");
   EXPECT_EQ(problems_in("[machine]\nkind = \"circle\""), "f:3:8: expected stage, circular or free, found 'circle'\n");
   EXPECT_EQ(problems_in("[machine]\nstart = \"60 mm\""),
             "f:3:9: start lies beyond a hard end: the travel is 100 mm, half of it on either side of 0\n");
+  EXPECT_EQ(format(read_scenario("duration = \"0 s\"").problems, "f"), "f:1:12: expected a time greater than 0\n");
+  EXPECT_EQ(problems_in("[initial]\ninput.3 = \"yes\""), "f:3:11: expected true or false, found a text\n");
   EXPECT_EQ(problems_in("event = 5"), "f:2:9: there can be several of these: expected [[event]]\n");
   EXPECT_EQ(problems_in("machine = 5"), "f:2:11: expected the section [machine] or a name, found a number\n");
 }
@@ -270,6 +274,13 @@ TEST(ScenarioFile, FindsMistakesInMotorsAndLoads) {
             "f:3:1: load_measurement can only be set with an ideal motor\n");
   EXPECT_EQ(problems_in("[initial]\nencoder.a_connected = false"),
             "f:3:9: encoder.a_connected does not exist on this machine\n");
+}
+
+TEST(ScenarioFile, KnowsWhichEncoderAModuleHas) {
+  EXPECT_EQ(problems_in("[encoder]\nlines = 100"),
+            "f:3:9: lines is for the encoder of a TMCM-1110, and the module is a PD-1161\n");
+  EXPECT_EQ(problems_in("module = \"tmcm1110\"\n[encoder]\nmagnet_offset = \"3 deg\""),
+            "f:4:17: magnet_offset is for the encoder of a PD-1161, and the module is a TMCM-1110\n");
 }
 
 TEST(ScenarioFile, KnowsWhatTheModuleCan) {

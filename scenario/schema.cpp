@@ -100,7 +100,8 @@ Json section_schema(std::span<const Key<Target>> keys) {
   Json required = Json::array();
   for (const Key<Target>& key : keys) {
     Json value = value_schema(key);
-    value["description"] = key.description;
+    value["description"] =
+        (key.only_for == nullptr ? "" : key.only_for->name + std::string(": ")) + std::string(key.description);
     schema["properties"][std::string(key.name)] = std::move(value);
     if (key.required) required.push_back(key.name);
   }

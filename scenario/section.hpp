@@ -45,10 +45,12 @@ struct Key {
   std::string_view description;
   void (*store)(Target& target, Value&& value);
   std::string_view unit = {};  ///< of a number
-  double lowest = 0;           ///< of a number
+  double lowest = 0;           ///< of a number; of a time in us, 0 or 1
   double highest = 0;
   std::span<const std::string_view> choices = {};
   bool required = false;
+  /// The other module has no use for it.
+  const ModuleDescription* only_for = nullptr;
 };
 
 /// Section names as they are written in the file.
@@ -77,6 +79,8 @@ std::span<const Key<twin::MotorData>> motor_keys();
 std::span<const Key<Recording>> record_keys();
 std::span<const Key<Event>> event_keys();
 std::span<const Key<Expectation>> expect_keys();
+
+inline constexpr std::string_view program_key = "program";
 
 // ---- The motor: what its name stands for can be changed by other keys
 

@@ -48,7 +48,7 @@ std::optional<Value> ValueReader::read(const toml::node& node, ValueType type, c
       complain_of_kind(node, "true or false");
       return std::nullopt;
     case ValueType::time:
-      return time(node);
+      return time(node, allowed.lowest);
     case ValueType::number:
       return number(node, allowed.unit, allowed.lowest, allowed.highest);
     case ValueType::whole:
@@ -133,7 +133,7 @@ std::optional<Value> ValueReader::whole(const toml::node& node, const AllowedVal
   return std::nullopt;
 }
 
-std::optional<Value> ValueReader::time(const toml::node& node) {
+std::optional<Value> ValueReader::time(const toml::node& node, double lowest) {
   const auto content = node.value_exact<std::string>();
   const Parsed<double> parsed = content ? parse_number(*content, "us") : Parsed<double>(0.0);
   if (const auto* const error = std::get_if<TextError>(&parsed)) {
@@ -144,6 +144,10 @@ std::optional<Value> ValueReader::time(const toml::node& node) {
   const bool has_unit = content && !content->empty() && (content->back() < '0' || content->back() > '9');
   if (!has_unit || microseconds < 0 || microseconds > longest_time) {
     complain(place_of(node), R"(expected a time such as "2.5 s" or "30 ms")");
+    return std::nullopt;
+  }
+  if (microseconds < lowest) {
+    complain(place_of(node), "expected a time greater than 0");
     return std::nullopt;
   }
   return Value{.time = static_cast<Microseconds>(std::llround(microseconds))};
@@ -215,6 +219,10 @@ void ValueReader::add_assignments(const toml::table& table, const std::string& p
 std::optional<double> ValueReader::assigned_value(const toml::node& node, const twin::Quantity& quantity) {
   if (quantity.kind == twin::Quantity::Kind::truth) {
     if (const auto truth = node.value_exact<bool>()) return *truth ? 1.0 : 0.0;
+    if (!node.is_number()) {
+      complain_of_kind(node, "true or false");
+      return std::nullopt;
+    }
   }
   return any_number(node, quantity.unit);
 }

@@ -49,7 +49,7 @@ class ValueReader {
   std::optional<Value> number(const toml::node& node, std::string_view unit, double lowest, double highest);
   std::optional<Value> whole(const toml::node& node, const AllowedValues& allowed);
   /// A plain number would be seconds; it is refused, since half of the readers would think of ms.
-  std::optional<Value> time(const toml::node& node);
+  std::optional<Value> time(const toml::node& node, double lowest);
   std::optional<Value> condition(const toml::node& node);
   void add_assignments(const toml::table& table, const std::string& prefix, int depth,
                        std::vector<std::pair<Place, Assignment>>& found);

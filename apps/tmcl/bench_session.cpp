@@ -57,8 +57,15 @@ Result<scenario::Scenario> scenario_from_file(const std::string& path) {
     const std::size_t count = file.problems.size();
     return Error{ErrorKind::bad_file, fmt::format("{} has {} error{}", path, count, count == 1 ? "" : "s"), {}};
   }
-  if (!file.scenario->program.empty()) {
-    file.scenario->program = (std::filesystem::path(path).parent_path() / file.scenario->program).string();
+  std::string& program = file.scenario->program;
+  if (!program.empty()) {
+    program = (std::filesystem::path(path).parent_path() / program).string();
+    std::error_code cannot_tell;
+    if (!std::filesystem::is_regular_file(program, cannot_tell)) {
+      const scenario::Problem problem{file.scenario->program_place, fmt::format("there is no file '{}'", program)};
+      fmt::print(stderr, "{}", scenario::format({problem}, path));
+      return Error{ErrorKind::bad_file, fmt::format("{} has 1 error", path), {}};
+    }
   }
   return *std::move(file.scenario);
 }
@@ -84,7 +91,10 @@ Result<std::unique_ptr<BenchSession>> BenchSession::open(const Options& options)
 
 Result<void> BenchSession::prepare_recording() {
   scenario::Recording& recording = scenario_.recording;
-  if (recording.file.empty()) return {};
+  if (recording.file.empty()) {
+    if (options_.signals.empty() && options_.record_every.empty()) return {};
+    return Error{ErrorKind::usage, "nothing is recorded: --signals and --record-every go with --record FILE", {}};
+  }
   const twin::World world(nullptr, scenario_.mounted(*scenario_.module));
   if (recording.signals.empty()) {
     for (const char* const name : usual_signals) {
@@ -148,7 +158,9 @@ void BenchSession::report(const Report& what) const {
                    {"time", seconds}, {"kind", name_of(what.kind)}, {"line", what.place.line}, {"text", what.text}}
                    .dump());
   } else {
-    fmt::print("{}:{}: {:.6f} s: {}: {}\n", options_.scenario, what.place.line, seconds, name_of(what.kind), what.text);
+    // The end by the duration has no place in the file.
+    const std::string line = what.place.line == 0 ? "" : fmt::format("{}:", what.place.line);
+    fmt::print("{}:{} {:.6f} s: {}: {}\n", options_.scenario, line, seconds, name_of(what.kind), what.text);
   }
   std::fflush(stdout);
 }

@@ -47,6 +47,19 @@ class Scenarios(ScenarioTest):
                               '[[expect]]\nby = "1 s"\nthat = "output.0"\n')
         self.sim(0, "--speed", "max", "--scenario", scenario)
 
+    def test_a_program_that_is_not_there_is_named_with_its_place(self):
+        scenario = self.write("s.toml", 'duration = "1 s"\nprogram = "nowhere.tmc"\n')
+        for command in (("scenario", "check"), ("sim", "--scenario")):
+            done = self.tmcl(*command, scenario)
+            self.assertEqual(65, done.returncode)
+            self.assertRegex(done.stderr, r"s\.toml:2:11: there is no file '.*nowhere\.tmc'")
+
+    def test_signals_without_a_recording_are_refused(self):
+        done = self.tmcl("sim", "--duration", "1s", "--tcp", "none", "--quiet", "--signals", "position",
+                         "--pty-link", self.path("link"))
+        self.assertEqual(64, done.returncode)
+        self.assertIn("--record FILE", done.stderr)
+
     def test_all_mistakes_are_found_with_their_places(self):
         scenario = self.write("s.toml", 'duration = 5\n[[event]]\nat = "1 s"\nset = { suply_voltage = 3 }\n')
         for command in (("scenario", "check"), ("sim", "--scenario")):
