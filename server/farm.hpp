@@ -32,12 +32,13 @@ class Farm {
   /// What one turn of a member may take of the thread's time, and all turns in a row before hosts are heard again.
   static constexpr std::chrono::microseconds longest_slice{500};
   static constexpr std::chrono::milliseconds longest_round{1};
-  /// A turn is this long for each member there is, but within these limits: 200 members have one each millisecond,
-  /// 2000 and more each ten milliseconds, as often as the firmware looks after a motor that turns. Requests are
-  /// answered at once all the same.
-  static constexpr std::chrono::microseconds turn_per_member{5};
+  /// A turn is this long for each member there is, but within these limits: 100 members have one each millisecond,
+  /// 2000 and more each twenty. Requests are answered at once all the same; only what a module says of its own, the
+  /// second reply of command 138, comes so much late. A turn of 20 ms costs little more than one of 10 ms, for most of
+  /// it goes into fetching a module from memory.
+  static constexpr std::chrono::microseconds turn_per_member{10};
   static constexpr std::chrono::milliseconds shortest_turn{1};
-  static constexpr std::chrono::milliseconds longest_turn{10};
+  static constexpr std::chrono::milliseconds longest_turn{20};
 
   /// @param member_count each of them is to be set before the farm starts
   Farm(boost::asio::io_context& events, std::size_t member_count, Options options,

@@ -185,10 +185,15 @@ void FarmSite::build_farm(Farm::Options options) {
                                                   : *modules_[member_modules_[member].front()]->module;
     farm_->set(member, simulated, std::move(requests), is_paced);
   }
+  keeps_eeproms_.resize(member_modules_.size());
+  for (const std::unique_ptr<Module>& module : modules_) {
+    if (module->eeprom) keeps_eeproms_[module->member] = true;
+  }
   farm_->after_turn([this](std::size_t member) { save(member); });
 }
 
 void FarmSite::save(std::size_t member) {
+  if (!keeps_eeproms_[member]) return;
   for (const std::size_t index : member_modules_[member]) {
     Module& module = *modules_[index];
     if (!module.eeprom) continue;

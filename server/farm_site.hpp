@@ -76,6 +76,9 @@ class FarmSite {
   std::vector<std::unique_ptr<Bus>> buses_;
   std::vector<std::unique_ptr<Module>> modules_;
   std::vector<std::vector<std::size_t>> member_modules_;  ///< by member of the farm: first the lines, then the rest
+  /// By member. Most turns are of modules that keep none, and to look at each of thousands of them costs memory
+  /// accesses.
+  std::vector<bool> keeps_eeproms_;
   std::unique_ptr<Farm> farm_;
   client::Result<void> outcome_;
 };
