@@ -144,8 +144,8 @@ class FarmTest(TemporaryFolderTest):
         refused = self.tmcl("farm", path)
         self.assertEqual(65, refused.returncode)
         lines = refused.stderr.splitlines()
-        self.assertEqual('%s:3:1: error: a [[module]] has no key "tcpp": did you mean tcp?' % path, lines[1])
-        self.assertEqual('%s:7:8: error: no kind is called "pd1162": did you mean pd1161?' % path, lines[-2])
+        self.assertEqual("%s:3:1: error: a [[module]] has no key 'tcpp': did you mean tcp?" % path, lines[1])
+        self.assertEqual("%s:7:8: error: no kind is called 'pd1162': did you mean pd1161?" % path, lines[-2])
         self.assertIn("errors", lines[-1])
 
     def test_a_wrong_program_is_reported_as_by_the_assembler(self):
