@@ -35,13 +35,13 @@ def instructions_of_run(command):
         return int(total[1])
 
 
-def instructions_per_repetition(command):
+def instructions_per_repetition(command, repetitions=REPETITIONS):
     """`command` is a program and its arguments without the last, which is the number of repetitions."""
-    once = instructions_of_run([*command, REPETITIONS])
-    twice = instructions_of_run([*command, 2 * REPETITIONS])
+    once = instructions_of_run([*command, repetitions])
+    twice = instructions_of_run([*command, 2 * repetitions])
     if twice <= once:
-        raise MeasurementError(f"{command}: {2 * REPETITIONS} repetitions took no more than {REPETITIONS}")
-    return (twice - once) / REPETITIONS
+        raise MeasurementError(f"{command}: {2 * repetitions} repetitions took no more than {repetitions}")
+    return (twice - once) / repetitions
 
 
 class Parser(argparse.ArgumentParser):
