@@ -233,7 +233,8 @@ std::uint64_t Tmc429::advance_motor(unsigned motor, std::uint64_t end, Until unt
                                     std::vector<std::uint64_t>* step_clocks) {
   Tmc429Axis& axis = axes_[motor];
   Tmc429StepOutput& output = outputs_[motor];
-  if (rests(motor, tick_at(end))) {
+  const bool is_even = rests(motor, tick_at(end)) || (step_clocks == nullptr && coasts(motor, tick_at(end)));
+  if (is_even) {
     return end;
   }
   const std::int32_t velocity_before = axis.ramp().state().velocity;
@@ -261,6 +262,34 @@ std::uint64_t Tmc429::advance_motor(unsigned motor, std::uint64_t end, Until unt
   return end;
 }
 
+/// Lets time pass until `end_tick` for a motor that only gives steps at one velocity, none of which has to be looked at
+/// alone. False where more may happen.
+bool Tmc429::coasts(unsigned motor, std::uint64_t end_tick) {
+  Tmc429Axis& axis = axes_[motor];
+  Tmc429StepOutput& output = outputs_[motor];
+  const bool decreasing = axis.ramp().state().velocity < 0;
+  if (detail_ == StepDetail::edges || !output.immediate(decreasing) || watches_position(motor)) {
+    return false;
+  }
+  const std::optional<Tmc429Ramp::Steps> steps = axis.coast_to(end_tick);
+  if (!steps) {
+    return false;
+  }
+  if (steps->count != 0) {
+    after_position_change();
+    output.steps(steps->count, clock_of(steps->first_tick), clock_of(steps->last_tick), output_settings_);
+    output.flush();
+  }
+  return true;
+}
+
+/// Passing POS_COMP raises an interrupt.
+bool Tmc429::watches_position(unsigned motor) const {
+  return InterfaceConfiguration::ComparedMotor::in(output_settings_.interface_configuration) ==
+             static_cast<std::int32_t>(motor) &&
+         ComparePositionInterrupt::Enabled::is_set({common(CommonRegister::compare_position_interrupt)});
+}
+
 /// To the next step that must be given out alone, or that changes what the position compare shows.
 Tmc429Reach Tmc429::reach_to_consequences(unsigned motor) const {
   if (detail_ == StepDetail::edges) {
@@ -274,9 +303,7 @@ Tmc429Reach Tmc429::reach_to_consequences(unsigned motor) const {
   if (!output.immediate(false)) {
     reach.increasing = 1;
   }
-  const Word<ComparePositionInterrupt> interrupt_word{common(CommonRegister::compare_position_interrupt)};
-  const auto compared = InterfaceConfiguration::ComparedMotor::in(output_settings_.interface_configuration);
-  if (compared == static_cast<std::int32_t>(motor) && ComparePositionInterrupt::Enabled::is_set(interrupt_word)) {
+  if (watches_position(motor)) {
     const std::int32_t position = tmc429::ActualPosition::Value::in({common(CommonRegister::compare_position)});
     reach.limit_to(Tmc429Reach::to_border(axes_[motor].position(), position, position));
   }

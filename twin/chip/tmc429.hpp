@@ -99,6 +99,8 @@ class Tmc429 {
   bool rests(unsigned motor, std::uint64_t end_tick) {
     return !outputs_[motor].delayed_edge() && axes_[motor].rest(end_tick);
   }
+  bool coasts(unsigned motor, std::uint64_t end_tick);
+  bool watches_position(unsigned motor) const;
   Tmc429Reach reach_to_consequences(unsigned motor) const;
   std::uint64_t tick_at(std::uint64_t clock) const;
   std::uint64_t clock_of(std::uint64_t tick) const;

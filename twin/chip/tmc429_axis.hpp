@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "firmware/chip/tmc429_registers.hpp"
@@ -27,6 +28,14 @@ class Tmc429Axis {
   /// See Tmc429Ramp::advance(). Ends also with each step that may raise an interrupt, stop or release the motion.
   Tmc429Ramp::Steps advance(std::uint64_t end, Tmc429Reach reach, Tmc429Ramp::Until until,
                             std::vector<std::uint64_t>* step_ticks);
+  /// See Tmc429Ramp::coast_to(). Nothing also where a step may raise an interrupt, stop or release the motion.
+  std::optional<Tmc429Ramp::Steps> coast_to(std::uint64_t end) {
+    const bool steps_have_consequences = mask_ != 0 || reference_tolerance_ != 0;
+    if (steps_have_consequences) return std::nullopt;
+    const std::optional<Tmc429Ramp::Steps> steps = ramp_.coast_to(end);
+    if (steps) conditions_ = conditions();
+    return steps;
+  }
   /// See Tmc429Ramp::rest().
   bool rest(std::uint64_t end) { return ramp_.rest(end); }
   const Tmc429Ramp& ramp() const { return ramp_; }

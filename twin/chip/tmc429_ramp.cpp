@@ -131,6 +131,30 @@ Tmc429Ramp::Steps Tmc429Ramp::advance(std::uint64_t end, const Tmc429Reach& reac
   return passage.steps;
 }
 
+std::optional<Tmc429Ramp::Steps> Tmc429Ramp::coast_to(std::uint64_t end) {
+  const Tmc429PulseTrain train = pulses_until(end);
+  if (!settled_ || train.increment == 0) {
+    return std::nullopt;
+  }
+  const std::uint64_t count = train.steps();
+  if (state_.positioning() && count + settled_distance_ >= distance_to_target()) {
+    return std::nullopt;
+  }
+  const bool decreasing = state_.velocity < 0;
+  state_.accumulator = train.accumulator_at_end();
+  state_.move(decreasing, count);
+  state_.now = end;
+  if (count == 0) {
+    return Steps{};
+  }
+  return Steps{count, train.tick_of_first_step(), train.tick_of_last_step(), decreasing};
+}
+
+/// Steps of the shorter way round the 24-bit circle.
+std::uint64_t Tmc429Ramp::distance_to_target() const {
+  return static_cast<std::uint64_t>(std::abs(state_.distance_to_target()));
+}
+
 /// The next ramp tick that may change something; some tick after `end` if there is none before.
 std::uint64_t Tmc429Ramp::next_ramp_tick(std::uint64_t end) const {
   if (!settled_) {
@@ -139,7 +163,7 @@ std::uint64_t Tmc429Ramp::next_ramp_tick(std::uint64_t end) const {
   if (!state_.positioning() || state_.pulse_increment() == 0) {
     return never;
   }
-  const auto distance = static_cast<std::uint64_t>(std::abs(state_.distance_to_target()));
+  const std::uint64_t distance = distance_to_target();
   if (distance < settled_distance_) {
     return next_multiple(state_.now, state_.settings.ramp_divider);
   }

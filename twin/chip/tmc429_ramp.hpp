@@ -69,6 +69,8 @@ class Tmc429Ramp {
     state_.now = resting ? end : state_.now;
     return resting;
   }
+  /// Lets time pass until `end` if all that happens is steps at one velocity, whatever their number. Nothing if not so.
+  std::optional<Steps> coast_to(std::uint64_t end);
   /// Runs until `end`, or to the step that completes `reach`, or to where `until` says, or to where the next tick may
   /// turn the motion round after steps have been given: now() tells how far. Appends the tick of each step to
   /// `step_ticks`, if given.
@@ -111,6 +113,7 @@ class Tmc429Ramp {
   void obey_switches();
   std::uint64_t next_ramp_tick(std::uint64_t end) const;
   Tmc429PulseTrain pulses_until(std::uint64_t end) const;
+  std::uint64_t distance_to_target() const;
   std::uint64_t steps_to_target() const;
   void coast(Passage& passage, std::uint64_t until);
   bool pulse_tick();
