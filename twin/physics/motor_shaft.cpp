@@ -27,38 +27,45 @@ MotorShaft::MotorShaft(const MotorData& motor, std::shared_ptr<TorqueTables> tab
 
 void MotorShaft::advance_to(Tick end, const Field& field) {
   const double winding_temperature = heated(seconds_of(end - memory_.now), field);
-  memory_ = after(end, field);
+  if (at_rest(field)) {
+    rest(field);
+  } else if (const std::optional<Arrival> arrival = locked_after(end, field)) {
+    arrive(*arrival);
+  } else {
+    take_over(integrated(end, field), end, field);
+  }
+  memory_.now = end;
+  memory_.amplitude = field.amplitude;
   memory_.winding_temperature = winding_temperature;
 }
 
 MotorShaft::State MotorShaft::state_at(Tick tick, const Field& field) const {
   if (tick <= memory_.now) return state();
-  const Memory then = after(tick, field);
-  return {then.rotor.angle, then.rotor.velocity};
+  if (at_rest(field)) return {memory_.rotor.angle, 0};
+  if (const std::optional<Arrival> arrival = locked_after(tick, field)) return arrival->rotor;
+  const PhaseState rotor = integrated(tick, field);
+  return {rotor.angle, rotor.velocity};
 }
 
-MotorShaft::Memory MotorShaft::after(Tick end, const Field& field) const {
-  Memory result = memory_;
-  if (at_rest(field)) {
-    result.rotor.velocity = 0;
-    const CoilCurrents currents = ideal_currents(field, field.angle);
-    result.rotor.current_a = currents.a;
-    result.rotor.current_b = currents.b;
-    result.regime = !always_free_ && can_lock(field) ? Regime::locked : Regime::free;
-    result.calm = 0;
-    result.running_away = 0;
-    result.cruise = {};
-    result.torque = field_torque(motor_, result.rotor);
-    result.pull_out_torque = pull_out_torque(field.amplitude, 0);
-  } else if (auto locked =
-                 memory_.regime == Regime::locked && !always_free_ ? locked_after(end, field) : std::nullopt) {
-    result = *locked;
-  } else {
-    result = integrated(end, field);
-  }
-  result.now = end;
-  result.amplitude = field.amplitude;
-  return result;
+void MotorShaft::rest(const Field& field) {
+  memory_.rotor.velocity = 0;
+  const CoilCurrents currents = ideal_currents(field, field.angle);
+  memory_.rotor.current_a = currents.a;
+  memory_.rotor.current_b = currents.b;
+  memory_.regime = !always_free_ && can_lock(field) ? Regime::locked : Regime::free;
+  memory_.calm = 0;
+  memory_.running_away = 0;
+  memory_.cruise = {};
+  memory_.torque = field_torque(motor_, memory_.rotor);
+  memory_.pull_out_torque = pull_out_torque(field.amplitude, 0);
+}
+
+void MotorShaft::arrive(const Arrival& arrival) {
+  memory_.rotor.angle = arrival.rotor.angle;
+  memory_.rotor.velocity = arrival.rotor.velocity;
+  memory_.torque = arrival.torque;
+  memory_.pull_out_torque = arrival.pull_out_torque;
+  if (!arrival.is_cruise) memory_.cruise = {};
 }
 
 bool MotorShaft::at_rest(const Field& field) const {
@@ -83,39 +90,42 @@ Tick MotorShaft::longest_span(const Field& field) const {
 
 // ---- Free and slipping
 
-MotorShaft::Memory MotorShaft::integrated(Tick end, const Field& field) const {
-  Memory result = memory_;
-  const bool slipping = memory_.regime == Regime::slipping && !always_free_;
+PhaseState MotorShaft::integrated(Tick end, const Field& field) const {
   const PhaseState begin = memory_.regime == Regime::locked ? entering_free(field) : memory_.rotor;
-  result.rotor = integrate(conditions(), field, begin, memory_.now, end, slipping ? slipping_step : free_step);
-  result.torque = field_torque(motor_, result.rotor);
-  result.pull_out_torque = pull_out_torque(field.amplitude, result.rotor.velocity);
-  result.regime = slipping ? Regime::slipping : Regime::free;
-  if (always_free_) return result;
+  return integrate(conditions(), field, begin, memory_.now, end, slips() ? slipping_step : free_step);
+}
+
+/// @param rotor at `end`, integrated
+void MotorShaft::take_over(const PhaseState& rotor, Tick end, const Field& field) {
+  const bool slipping = slips();
+  memory_.rotor = rotor;
+  memory_.torque = field_torque(motor_, rotor);
+  memory_.pull_out_torque = pull_out_torque(field.amplitude, rotor.velocity);
+  memory_.regime = slipping ? Regime::slipping : Regime::free;
+  if (always_free_) return;
 
   const Tick span = end - memory_.now;
   const double seconds = seconds_of(span);
   const double swing_frequency =
       std::sqrt(MotorData::pole_pairs * motor_.torque_constant() * field.amplitude / inertia()) / radians_per_turn;
   const bool running_away = field.energised && field.steps.empty() &&
-                            std::fabs(field.velocity_after(seconds) - result.rotor.velocity) > swing_frequency;
-  result.running_away = running_away ? memory_.running_away + span : 0;
-  if (result.running_away >= running_away_time) {
-    result.regime = Regime::slipping;
+                            std::fabs(field.velocity_after(seconds) - rotor.velocity) > swing_frequency;
+  memory_.running_away = running_away ? memory_.running_away + span : 0;
+  if (memory_.running_away >= running_away_time) {
+    memory_.regime = Regime::slipping;
   } else if (!running_away) {
-    result.regime = Regime::free;
+    memory_.regime = Regime::free;
   }
 
-  result.calm = calm(field, seconds, result.rotor) ? memory_.calm + span : 0;
-  result.cruise = observed_cruise(field, span, result.rotor);
-  if (result.calm >= calm_time) {
-    result.regime = Regime::locked;
-    result.calm = 0;
-    result.cruise = {};
-  } else if (settled(field, result.cruise)) {
-    result.regime = Regime::locked;
+  memory_.calm = calm(field, seconds, rotor) ? memory_.calm + span : 0;
+  memory_.cruise = observed_cruise(field, span, rotor);
+  if (memory_.calm >= calm_time) {
+    memory_.regime = Regime::locked;
+    memory_.calm = 0;
+    memory_.cruise = {};
+  } else if (settled(field, memory_.cruise)) {
+    memory_.regime = Regime::locked;
   }
-  return result;
 }
 
 /// The rotor as the closed form left it, with the currents of an even motion at its load angle.

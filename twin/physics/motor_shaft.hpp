@@ -111,13 +111,22 @@ class MotorShaft {
   struct Limits;
   struct Equilibrium;
 
-  /// All but the winding's temperature, which takes no part in a single span.
-  Memory after(Tick end, const Field& field) const;
-  std::optional<Memory> locked_after(Tick end, const Field& field) const;
-  std::optional<Memory> following(const Field& field, double seconds) const;
-  std::optional<Memory> settling(const Field& field, double seconds) const;
-  std::optional<Memory> cruising(const Field& field, double seconds) const;
-  Memory integrated(Tick end, const Field& field) const;
+  /// Where a closed form leads to by the end of a span.
+  struct Arrival {
+    State rotor;
+    double torque;           ///< N m of the field
+    double pull_out_torque;  ///< N m
+    bool is_cruise;          ///< an even motion beyond the voltage limit goes on
+  };
+
+  void rest(const Field& field);
+  void arrive(const Arrival& arrival);
+  std::optional<Arrival> locked_after(Tick end, const Field& field) const;
+  std::optional<Arrival> following(const Field& field, double seconds) const;
+  std::optional<Arrival> settling(const Field& field, double seconds) const;
+  std::optional<Arrival> cruising(const Field& field, double seconds) const;
+  PhaseState integrated(Tick end, const Field& field) const;
+  void take_over(const PhaseState& rotor, Tick end, const Field& field);
 
   double moving_torque(double angle, double velocity, double acceleration) const;
   std::optional<Equilibrium> moving_equilibrium(double angle, double velocity, double acceleration,
@@ -129,6 +138,7 @@ class MotorShaft {
   bool swings(double frequency) const;
   bool calm(const Field& field, double seconds, const PhaseState& rotor) const;
   bool can_lock(const Field& field) const;
+  bool slips() const { return memory_.regime == Regime::slipping && !always_free_; }
   PhaseState entering_free(const Field& field) const;
 
   double inertia() const { return motor_.rotor_inertia + load_.inertia; }

@@ -64,8 +64,8 @@ bool MotorShaft::can_lock(const Field& field) const {
          std::fabs(field.velocity) < TorqueTable::highest_speed;
 }
 
-std::optional<MotorShaft::Memory> MotorShaft::locked_after(Tick end, const Field& field) const {
-  if (!can_lock(field)) return std::nullopt;
+std::optional<MotorShaft::Arrival> MotorShaft::locked_after(Tick end, const Field& field) const {
+  if (memory_.regime != Regime::locked || always_free_ || !can_lock(field)) return std::nullopt;
   const double seconds = seconds_of(end - memory_.now);
   if (field.stands()) return settling(field, seconds);
   if (auto cruise = cruising(field, seconds)) return cruise;
@@ -109,7 +109,7 @@ bool MotorShaft::swings(double frequency) const {
 }
 
 /// The field turns, and the rotor with it.
-std::optional<MotorShaft::Memory> MotorShaft::following(const Field& field, double seconds) const {
+std::optional<MotorShaft::Arrival> MotorShaft::following(const Field& field, double seconds) const {
   constexpr Limits limits = Limits::to_stay();
   const TorqueTable& torques = table(field.amplitude);
   const double end_angle = field.angle_after(seconds);
@@ -145,17 +145,15 @@ std::optional<MotorShaft::Memory> MotorShaft::following(const Field& field, doub
   // What rounding leaves of a swing that died down long ago.
   constexpr double no_swing = 1e-8;
   const Swing then = amplitude < no_swing ? Swing{} : oscillator.after(swing, seconds);
-  Memory result = memory_;
-  result.rotor.angle = end_angle - pole - (last->lead + then.deviation) / radians_per_turn;
-  result.rotor.velocity = end_velocity - (drift + then.rate) / radians_per_turn;
-  result.torque = last->torque;
-  result.pull_out_torque = last->pull_out_torque;
-  result.cruise = {};
-  return result;
+  return Arrival{.rotor = {.angle = end_angle - pole - (last->lead + then.deviation) / radians_per_turn,
+                           .velocity = end_velocity - (drift + then.rate) / radians_per_turn},
+                 .torque = last->torque,
+                 .pull_out_torque = last->pull_out_torque,
+                 .is_cruise = false};
 }
 
 /// The field turns evenly under the conditions of a motion that has settled: the rotor keeps its lead.
-std::optional<MotorShaft::Memory> MotorShaft::cruising(const Field& field, double seconds) const {
+std::optional<MotorShaft::Arrival> MotorShaft::cruising(const Field& field, double seconds) const {
   const Cruise& cruise = memory_.cruise;
   if (cruise.velocity == 0 || field.velocity != cruise.velocity || field.acceleration != 0 ||
       cruise.conditions != TorqueTables::key(supply_, field.amplitude, memory_.winding_temperature) ||
@@ -167,11 +165,10 @@ std::optional<MotorShaft::Memory> MotorShaft::cruising(const Field& field, doubl
   const double reach = std::fabs(field.velocity) * seconds + 0.5;
   if (memory_.rotor.angle - reach < load_.lowest_angle || memory_.rotor.angle + reach > load_.highest_angle)
     return std::nullopt;
-  Memory result = memory_;
-  result.rotor.angle = field.angle_after(seconds) - pole - mean;
-  result.rotor.velocity = field.velocity;
-  result.torque = cruise.torque;
-  return result;
+  return Arrival{.rotor = {.angle = field.angle_after(seconds) - pole - mean, .velocity = field.velocity},
+                 .torque = cruise.torque,
+                 .pull_out_torque = memory_.pull_out_torque,
+                 .is_cruise = true};
 }
 
 std::optional<MotorShaft::Equilibrium> MotorShaft::standing_equilibrium(double angle, const TorqueTable& table,
@@ -198,7 +195,7 @@ std::optional<MotorShaft::Equilibrium> MotorShaft::standing_equilibrium(double a
 }
 
 /// The field stands, and the rotor comes to rest: half swings, each about a place that friction has moved against it.
-std::optional<MotorShaft::Memory> MotorShaft::settling(const Field& field, double seconds) const {
+std::optional<MotorShaft::Arrival> MotorShaft::settling(const Field& field, double seconds) const {
   constexpr Limits limits = Limits::to_stay();
   // A spring moves the equilibrium of each pole to another place.
   const double pole = nearest_integer(field.angle - memory_.rotor.angle);
@@ -218,7 +215,6 @@ std::optional<MotorShaft::Memory> MotorShaft::settling(const Field& field, doubl
 
   const double friction_angle = friction() / centre->stiffness;
   const auto rotor_angle = [&] { return angle - (centre->lead + swing.deviation) / radians_per_turn; };
-  Memory result = memory_;
   for (double left = seconds; left > 0;) {
     if (swing.rate == 0) {
       if (std::fabs(standing_torque(field, rotor_angle())) <= friction()) break;
@@ -235,12 +231,10 @@ std::optional<MotorShaft::Memory> MotorShaft::settling(const Field& field, doubl
     if (part == half) swing.rate = 0;
     left -= part;
   }
-  result.rotor.angle = rotor_angle();
-  result.rotor.velocity = -swing.rate / radians_per_turn;
-  result.torque = centre->torque;
-  result.pull_out_torque = centre->pull_out_torque;
-  result.cruise = {};
-  return result;
+  return Arrival{.rotor = {.angle = rotor_angle(), .velocity = -swing.rate / radians_per_turn},
+                 .torque = centre->torque,
+                 .pull_out_torque = centre->pull_out_torque,
+                 .is_cruise = false};
 }
 
 // ---- The way back from the integrator
