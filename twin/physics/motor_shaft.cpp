@@ -49,6 +49,7 @@ MotorShaft::State MotorShaft::state_at(Tick tick, const Field& field) const {
 
 void MotorShaft::rest(const Field& field) {
   memory_.rotor.velocity = 0;
+  memory_.even = false;
   const CoilCurrents currents = ideal_currents(field, field.angle);
   memory_.rotor.current_a = currents.a;
   memory_.rotor.current_b = currents.b;
@@ -63,6 +64,7 @@ void MotorShaft::rest(const Field& field) {
 void MotorShaft::arrive(const Arrival& arrival) {
   memory_.rotor.angle = arrival.rotor.angle;
   memory_.rotor.velocity = arrival.rotor.velocity;
+  memory_.even = arrival.is_even;
   memory_.torque = arrival.torque;
   memory_.pull_out_torque = arrival.pull_out_torque;
   if (!arrival.is_cruise) memory_.cruise = {};
@@ -85,7 +87,14 @@ bool MotorShaft::at_rest(const Field& field) const {
 Tick MotorShaft::longest_span(const Field& field) const {
   if (at_rest(field)) return 1000 * ticks_per_millisecond;
   if (memory_.regime != Regime::locked || !can_lock(field)) return ticks_per_millisecond;
+  if (turns_evenly(field)) return 100 * ticks_per_millisecond;
   return field.acceleration == 0 && load_.spring == 0 ? 10 * ticks_per_millisecond : 2 * ticks_per_millisecond;
+}
+
+/// As in the span before, and nothing has changed since.
+bool MotorShaft::turns_evenly(const Field& field) const {
+  return memory_.even && field.acceleration == 0 && field.velocity == memory_.rotor.velocity &&
+         field.amplitude == memory_.amplitude;
 }
 
 // ---- Free and slipping
@@ -99,6 +108,7 @@ PhaseState MotorShaft::integrated(Tick end, const Field& field) const {
 void MotorShaft::take_over(const PhaseState& rotor, Tick end, const Field& field) {
   const bool slipping = slips();
   memory_.rotor = rotor;
+  memory_.even = false;
   memory_.torque = field_torque(motor_, rotor);
   memory_.pull_out_torque = pull_out_torque(field.amplitude, rotor.velocity);
   memory_.regime = slipping ? Regime::slipping : Regime::free;

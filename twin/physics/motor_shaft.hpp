@@ -30,11 +30,23 @@ class MotorShaft {
   MotorShaft(const MotorData& motor, std::shared_ptr<TorqueTables> tables);
 
   // Conditions; they act from now() on. Setting an equal value changes nothing.
-  void set_load(const Load& load) { load_ = load; }
-  void set_supply(double volts) { supply_ = volts; }        ///< at first 24 V
+  void set_load(const Load& load) {
+    if (load == load_) return;
+    load_ = load;
+    memory_.even = false;
+  }
+  /// At first 24 V.
+  void set_supply(double volts) {
+    if (volts == supply_) return;
+    supply_ = volts;
+    memory_.even = false;
+  }
   void set_ambient(double celsius) { ambient_ = celsius; }  ///< at first 25 °C, the winding too
   /// Integrates always: what the regimes are measured against, at two hundred times real time.
-  void set_always_free(bool always) { always_free_ = always; }
+  void set_always_free(bool always) {
+    always_free_ = always;
+    memory_.even = false;
+  }
 
   const MotorData& motor() const { return motor_; }
   const Load& load() const { return load_; }
@@ -58,8 +70,9 @@ class MotorShaft {
   /// Nothing moves and nothing will until field, load or supply change: the swing has died down.
   bool at_rest(const Field& field) const;
   Regime regime() const { return memory_.regime; }
-  /// Longest span that advance_to() may be given in the present regime, in ticks (10 ms locked and steady, 2 ms locked
-  /// and accelerating, 1 ms free). Multiples of 320 ticks, so that a grid of absolute ticks can be kept.
+  /// Longest span that advance_to() may be given in the present regime, in ticks: 100 ms locked and turning evenly,
+  /// 10 ms while a swing is dying down, 2 ms locked and accelerating, 1 ms free. Multiples of 320 ticks, so that a grid
+  /// of absolute ticks can be kept.
   Tick longest_span(const Field& field) const;
 
   /// For stallGuard2 and for display, of the span that advance_to() last let pass.
@@ -94,6 +107,7 @@ class MotorShaft {
     Tick now = 0;
     PhaseState rotor;
     Regime regime = Regime::locked;
+    bool even = false;                ///< it has followed an even field for a span without a swing
     Tick calm = 0;                    ///< ticks for which a free rotor has swung little
     Tick running_away = 0;            ///< ticks for which the field has been running away from it
     double winding_temperature = 25;  ///< °C
@@ -116,6 +130,7 @@ class MotorShaft {
     State rotor;
     double torque;           ///< N m of the field
     double pull_out_torque;  ///< N m
+    bool is_even;            ///< there was no swing on the way, and will be none
     bool is_cruise;          ///< an even motion beyond the voltage limit goes on
   };
 
@@ -138,6 +153,7 @@ class MotorShaft {
   bool swings(double frequency) const;
   bool calm(const Field& field, double seconds, const PhaseState& rotor) const;
   bool can_lock(const Field& field) const;
+  bool turns_evenly(const Field& field) const;
   bool slips() const { return memory_.regime == Regime::slipping && !always_free_; }
   PhaseState entering_free(const Field& field) const;
 

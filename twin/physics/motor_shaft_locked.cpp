@@ -144,11 +144,13 @@ std::optional<MotorShaft::Arrival> MotorShaft::following(const Field& field, dou
 
   // What rounding leaves of a swing that died down long ago.
   constexpr double no_swing = 1e-8;
-  const Swing then = amplitude < no_swing ? Swing{} : oscillator.after(swing, seconds);
+  const bool swings_on = amplitude >= no_swing;
+  const Swing then = swings_on ? oscillator.after(swing, seconds) : Swing{};
   return Arrival{.rotor = {.angle = end_angle - pole - (last->lead + then.deviation) / radians_per_turn,
                            .velocity = end_velocity - (drift + then.rate) / radians_per_turn},
                  .torque = last->torque,
                  .pull_out_torque = last->pull_out_torque,
+                 .is_even = steady && !swings_on,
                  .is_cruise = false};
 }
 
@@ -168,6 +170,7 @@ std::optional<MotorShaft::Arrival> MotorShaft::cruising(const Field& field, doub
   return Arrival{.rotor = {.angle = field.angle_after(seconds) - pole - mean, .velocity = field.velocity},
                  .torque = cruise.torque,
                  .pull_out_torque = memory_.pull_out_torque,
+                 .is_even = true,
                  .is_cruise = true};
 }
 
@@ -234,6 +237,7 @@ std::optional<MotorShaft::Arrival> MotorShaft::settling(const Field& field, doub
   return Arrival{.rotor = {.angle = rotor_angle(), .velocity = -swing.rate / radians_per_turn},
                  .torque = centre->torque,
                  .pull_out_torque = centre->pull_out_torque,
+                 .is_even = false,
                  .is_cruise = false};
 }
 

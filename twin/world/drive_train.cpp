@@ -14,8 +14,12 @@ constexpr unsigned driven_motor = 0;  // motor 1: the only one with a driver on 
 
 constexpr double electrical_turn = tmc262::microstep_positions;
 
-/// Near a contact or an end the shaft is brought up to date this often: 40 us.
+/// Where an even motion may bring the shaft to a contact or an end before long, it is brought up to date this often.
+constexpr Tick short_span = 10 * ticks_per_millisecond;
+/// Near a contact or an end, this often: 40 us.
 constexpr Tick finest_span = 640;
+/// A motor that turns is reported this often.
+constexpr Tick report_period = short_span;
 
 /// Less than this, and an ideal motor's steps are taken one by one: 1 ms.
 constexpr Tick shortest_jump = 1000 * ticks_per_microsecond;
@@ -29,6 +33,10 @@ constexpr std::int32_t coarsest_smooth_step = tmc262::microsteps_per_fullstep / 
 
 constexpr double milliamperes = 1000;  // in 1 A
 constexpr double millivolts = 1000;    // in 1 V
+
+constexpr Tick next_multiple(Tick period, Tick now) {
+  return (now / period + 1) * period;
+}
 
 bool is_write(std::uint32_t datagram) {
   return !tmc429::Datagram::Read::is_set({datagram});
@@ -91,7 +99,7 @@ DriveTrain::DriveTrain(ShaftSurroundings& surroundings, Options options)
 }
 
 void DriveTrain::run(Tick tick) {
-  const Tick end = std::min({tick, end_of_span_, step_input_.next()});
+  const Tick end = std::min({tick, end_of_span_, next_report_, step_input_.next()});
   running_ = true;
   if (watches_ramp_) {
     tmc429_->advance_until_change(end - now_, driven_motor);
@@ -106,7 +114,12 @@ void DriveTrain::run(Tick tick) {
     step_input_.take();
     pulse_step(step_input_.direction());
   }
-  if (is_new_motion || now_ == end_of_span_) commit();
+  if (is_new_motion || now_ == end_of_span_) {
+    commit();
+  } else if (now_ == next_report_) {
+    surroundings_.shaft_passes(now_);
+    next_report_ += report_period;
+  }
 }
 
 /// Brings the motor up to the present under the conditions with which the span began, and begins the next one.
@@ -138,12 +151,19 @@ void DriveTrain::begin_span() {
 Tick DriveTrain::end_of_span() {
   set_detail(field_.drive().is_coarse || tmc262_.interpolates());
   const Tick end = next_event();
+  next_report_ = never_tick;
   const Field present = field();
   const bool steps_may_come = step_input_.rate() != 0 || tmc429_->clocks_for_steps(1, driven_motor) != never_tick;
   if (!steps_may_come && motor_->at_rest(present)) return end;
-  Tick span = motor_->longest_span(present);
-  if (!is_clear_of_events(span, present)) span = finest_span;
-  return std::min(end, (now_ / span + 1) * span);
+  if (reports_steps_) next_report_ = next_multiple(report_period, now_);
+  return std::min(end, next_multiple(span_clear_of_events(present), now_));
+}
+
+/// The longest one in which the motor need not be brought up to date.
+Tick DriveTrain::span_clear_of_events(const Field& present) const {
+  const Tick longest = motor_->longest_span(present);
+  if (is_clear_of_events(longest, present)) return longest;
+  return longest > short_span && is_clear_of_events(short_span, present) ? short_span : finest_span;
 }
 
 /// Whether nothing can bring the shaft to a contact or an end within a span.

@@ -22,6 +22,8 @@ class ShaftSurroundings {
  public:
   /// The shaft is at shaft_angle() now. May set switches of the TMC429.
   virtual void shaft_turned(Tick tick) = 0;
+  /// To be reported: the shaft is at shaft_angle() within a long span. Nothing may be changed.
+  virtual void shaft_passes(Tick tick) = 0;
   /// How far the shaft may turn either way, in microsteps, before it reaches the next contact or end.
   virtual std::int64_t distance_to_event() const = 0;
   /// When a contact next changes although the shaft rests.
@@ -46,7 +48,7 @@ class DriveTrain final : private StepListener {
     std::shared_ptr<TorqueTables> tables;
     /// An ideal rotor cannot leave these angles, in microsteps.
     IdealRotor ideal_rotor;
-    /// Every step is reported: exact pictures, slow time.
+    /// Every step is reported, and where a motor is each 10 ms: exact pictures, slow time.
     bool reports_steps = false;
   };
 
@@ -111,6 +113,7 @@ class DriveTrain final : private StepListener {
   Tick end_of_span();
   Tick end_of_ideal_span();
   Tick next_event() const;
+  Tick span_clear_of_events(const Field& present) const;
   bool is_clear_of_events(Tick span, const Field& present) const;
   FieldTracker::Drive drive() const;
   void after_change();
@@ -129,8 +132,9 @@ class DriveTrain final : private StepListener {
   FieldTracker field_;
   StepInput step_input_;
   Tick end_of_span_ = 0;
-  bool watches_ramp_ = true;   ///< a change of velocity ends the span
-  std::int32_t velocity_ = 0;  ///< of the ramp generator when the span began, with its fraction
+  Tick next_report_ = never_tick;  ///< within the span
+  bool watches_ramp_ = true;       ///< a change of velocity ends the span
+  std::int32_t velocity_ = 0;      ///< of the ramp generator when the span began, with its fraction
   /// Between the ends of spans the firmware looks more than once in a turn.
   struct Look {
     Tick tick;

@@ -85,5 +85,51 @@ TEST(Spans, EndWhereAShortToGroundBegins) {
   EXPECT_EQ(angle(true), angle(false));
 }
 
+/// Turns with a real motor at 29 rpm, without a swing after some seconds.
+void turn_evenly(World& world) {
+  start(world, 2);
+  world.transfer_tmc262(tmc262::datagram(tmc262::StallGuardAndCurrent::CurrentScale::of(31)));
+  write(world, tmc429::Mode::of(tmc429::RampMode::velocity));
+  set<tmc429::TargetVelocity>(world, 100);
+  world.advance_to(5000 * millisecond);
+}
+
+TEST(Spans, AreLongWhileTheMotorTurnsEvenly) {
+  World world(nullptr, bench_machine());
+  turn_evenly(world);
+  world.advance_to(5095 * millisecond);
+  EXPECT_EQ(world.motor()->now(), 5000 * millisecond);
+  Load load = world.load();
+  load.torque += 0.05;
+  world.set_load(load);
+  world.advance_to(5115 * millisecond);
+  EXPECT_EQ(world.motor()->now(), 5110 * millisecond) << "the rotor swings to another lead";
+  world.advance_to(8095 * millisecond);
+  EXPECT_EQ(world.motor()->now(), 8000 * millisecond);
+}
+
+TEST(Spans, AreShorterWhereAnEvenMotionComesToASwitch) {
+  LinearStageDimensions stage;
+  stage.limit_switch_distance = 10'000;
+  stage.start = 34'000;  // µm, 6 mm before the right switch
+  World world(nullptr, {.machine = stage, .motor = motors().front()});
+  turn_evenly(world);
+  Tick time = world.now();
+  while (!world.right_switch() && time < 60'000 * millisecond) world.advance_to(time += millisecond);
+  ASSERT_TRUE(world.right_switch());
+  EXPECT_LE(world.place(), 40'001) << "within 40 us";
+}
+
+TEST(Spans, AreRecordedEveryTenMilliseconds) {
+  TraceText trace;
+  World world(&trace, bench_machine());
+  turn_evenly(world);
+  for (const int time : {5010, 5020, 5030, 5040}) {
+    world.advance_to(static_cast<Tick>(time) * millisecond);
+    EXPECT_NE(trace.text().find("\n" + std::to_string(world.now()) + " encoder "), std::string::npos) << time;
+  }
+  EXPECT_EQ(world.motor()->now(), 5000 * millisecond);
+}
+
 }  // namespace
 }  // namespace opentmcl::twin

@@ -159,10 +159,14 @@ void World::shaft_turned(Tick tick) {
   const bool chatters = machine_.next_chatter(tick - 1) == tick;
   if (machine_.follow(angle, tick) || chatters) update_switches(tick);
   encoder_.follow(encoder_.properties().on_load_side ? machine_.load_side_angle() : angle);
-  if (observer_ == nullptr) return;
+  if (observer_ != nullptr) report_shaft(tick);
+}
+
+/// What turns with it, as it is now.
+void World::report_shaft(Tick tick) {
   report_encoder(tick);
-  if (machine_.place_unit() == PlaceUnit::micrometre && machine_.place() != traced_place_)
-    report(tick, "stage", traced_place_ = machine_.place());
+  if (machine_.place_unit() == PlaceUnit::micrometre && place() != traced_place_)
+    report(tick, "stage", traced_place_ = place());
 }
 
 std::int64_t World::distance_to_event() const {
@@ -176,7 +180,7 @@ ShaftEncoder& World::encoder() {
 }
 
 void World::report_encoder(Tick tick) {
-  if (encoder_.count() != traced_count_) report(tick, "encoder", traced_count_ = encoder_.count());
+  if (encoder_count() != traced_count_) report(tick, "encoder", traced_count_ = encoder_count());
 }
 
 /// A closed contact pulls its input to ground, a pull-up resistor lifts that of an open one.

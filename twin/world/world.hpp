@@ -153,11 +153,13 @@ class World final : private ShaftSurroundings {
 
  private:
   void shaft_turned(Tick tick) override;
+  void shaft_passes(Tick tick) override { report_shaft(tick); }
   std::int64_t distance_to_event() const override;
   Tick next_event(Tick tick) const override { return machine_.next_chatter(tick); }
   Tick shortest_event() const override { return machine_.shortest_chatter(); }
   void report(Tick tick, std::string_view signal, std::int64_t value) override;
   void update_switches(Tick tick);
+  void report_shaft(Tick tick);
   void report_encoder(Tick tick);
   std::int64_t encoder_angle() const {
     return encoder_.properties().on_load_side ? machine_.load_side_angle_at(rotor_angle()) : rotor_angle();
