@@ -18,6 +18,8 @@ constexpr double electrical_turn = tmc262::microstep_positions;
 constexpr Tick short_span = 10 * ticks_per_millisecond;
 /// Near a contact or an end, this often: 40 us.
 constexpr Tick finest_span = 640;
+/// One that is moved by single steps, this often.
+constexpr Tick single_step_span = ticks_per_millisecond;
 /// A motor that turns is reported this often.
 constexpr Tick report_period = short_span;
 
@@ -161,7 +163,8 @@ Tick DriveTrain::end_of_span() {
 
 /// The longest one in which the motor need not be brought up to date.
 Tick DriveTrain::span_clear_of_events(const Field& present) const {
-  const Tick longest = motor_->longest_span(present);
+  // That of single steps stands still as far as is known now.
+  const Tick longest = field_.drive().is_coarse ? single_step_span : motor_->longest_span(present);
   if (is_clear_of_events(longest, present)) return longest;
   return longest > short_span && is_clear_of_events(short_span, present) ? short_span : finest_span;
 }

@@ -131,5 +131,18 @@ TEST(Spans, AreRecordedEveryTenMilliseconds) {
   EXPECT_EQ(world.motor()->now(), 5000 * millisecond);
 }
 
+/// Steps that come singly are in no field of the future.
+TEST(Spans, AreShortFromTheStartOfAMotionInFullSteps) {
+  World world(nullptr, bench_machine());
+  start(world, 8);
+  write(world, tmc429::Dividers::Pulse::of(7) | tmc429::Dividers::Ramp::of(3));
+  write(world, tmc429::Mode::of(tmc429::RampMode::velocity));
+  set<tmc429::TargetVelocity>(world, 100);
+  for (int time = 0; time < 300; time += 50) {
+    world.advance_to(static_cast<Tick>(time) * millisecond);
+    EXPECT_LE(world.now() - world.motor()->now(), millisecond) << time;
+  }
+}
+
 }  // namespace
 }  // namespace opentmcl::twin
