@@ -176,6 +176,7 @@ const TorqueTable& MotorShaft::table(double amplitude) const {
   if (!table_ || key != table_key_) {
     table_ = tables_->table(motor_, key);
     table_key_ = key;
+    even_balance_.reset();
   }
   return *table_;
 }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "twin/physics/damped_swing.hpp"
 #include "twin/physics/field.hpp"
 #include "twin/physics/load.hpp"
 #include "twin/physics/motor_data.hpp"
@@ -34,6 +35,7 @@ class MotorShaft {
     if (load == load_) return;
     load_ = load;
     memory_.even = false;
+    even_balance_.reset();
   }
   /// At first 24 V.
   void set_supply(double volts) {
@@ -123,7 +125,22 @@ class MotorShaft {
 
  private:
   struct Limits;
-  struct Equilibrium;
+
+  /// Where the rotor would stand, or turn with the field.
+  struct Equilibrium {
+    double lead;             ///< radians by which the field leads the rotor
+    double stiffness;        ///< N m per electrical radian
+    double torque;           ///< N m of the field
+    double most_lead;        ///< radians, with a swing
+    double pull_out_torque;  ///< N m
+  };
+
+  /// What the rotor swings about while the field turns.
+  struct MovingBalance {
+    Equilibrium first;  ///< when the span begins
+    Equilibrium last;   ///< when it ends
+    DampedOscillator oscillator;
+  };
 
   /// Where a closed form leads to by the end of a span.
   struct Arrival {
@@ -149,6 +166,10 @@ class MotorShaft {
   std::optional<Equilibrium> standing_equilibrium(double angle, const TorqueTable& table, const Limits& limits) const;
   Cruise observed_cruise(const Field& field, Tick span, const PhaseState& rotor) const;
   bool settled(const Field& field, const Cruise& cruise) const;
+  /// Nothing where the closed form is not trusted.
+  std::optional<MovingBalance> moving_balance(const Field& field, double seconds, const TorqueTable& table) const;
+  std::optional<MovingBalance> remembered_balance(const Field& field, double seconds) const;
+  bool keeps_its_balance(const Field& field) const { return field.acceleration == 0 && load_.spring == 0; }
   double natural_frequency(const Equilibrium& equilibrium) const;
   bool swings(double frequency) const;
   bool calm(const Field& field, double seconds, const PhaseState& rotor) const;
@@ -178,15 +199,12 @@ class MotorShaft {
   mutable TorqueTables::Key table_key_{};  ///< of table_
   mutable std::shared_ptr<const TorqueTable> table_;
 
-  /// A motor that turns evenly asks for the same point again and again.
-  struct RememberedPoint {
-    const TorqueTable* table = nullptr;
-    double speed = 0;
-    double torque = 0;
-    TorqueTable::Point point{};
+  /// A motor that turns evenly asks for the same balance again and again.
+  struct EvenBalance {
+    double velocity;  ///< of the field, electrical turns per second
+    std::optional<MovingBalance> balance;
   };
-  TorqueTable::Point point_of(const TorqueTable& table, double speed, double torque) const;
-  mutable RememberedPoint remembered_;
+  mutable std::optional<EvenBalance> even_balance_;  ///< nothing after a change of load or table
 };
 
 }  // namespace opentmcl::twin

@@ -50,14 +50,6 @@ struct MotorShaft::Limits {
   static constexpr Limits to_return() { return {.torque_share = 0.88, .swing = 0.1, .angle_share = 0.85}; }
 };
 
-struct MotorShaft::Equilibrium {
-  double lead;             ///< radians by which the field leads the rotor
-  double stiffness;        ///< N m per electrical radian
-  double torque;           ///< N m of the field
-  double most_lead;        ///< radians, with a swing
-  double pull_out_torque;  ///< N m
-};
-
 bool MotorShaft::can_lock(const Field& field) const {
   return field.energised && field.coil_a_connected && field.coil_b_connected && field.steps.empty() && !load_.jammed &&
          field.amplitude * motor_.torque_constant() * most_detent >= motor_.detent_torque &&
@@ -79,20 +71,13 @@ double MotorShaft::moving_torque(double angle, double velocity, double accelerat
          shaft_radians * (drag() * velocity + inertia() * acceleration);
 }
 
-TorqueTable::Point MotorShaft::point_of(const TorqueTable& table, double speed, double torque) const {
-  if (remembered_.table != &table || remembered_.speed != speed || remembered_.torque != torque) {
-    remembered_ = {&table, speed, torque, table.at(speed, torque)};
-  }
-  return remembered_.point;
-}
-
 std::optional<MotorShaft::Equilibrium> MotorShaft::moving_equilibrium(double angle, double velocity,
                                                                       double acceleration, const TorqueTable& table,
                                                                       const Limits& limits) const {
   if (std::fabs(velocity) >= TorqueTable::highest_speed) return std::nullopt;
   const double torque = moving_torque(angle, velocity, acceleration);
   const double direction = velocity != 0 ? sign(velocity) : sign(acceleration);
-  const TorqueTable::Point point = point_of(table, direction < 0 ? -std::fabs(velocity) : std::fabs(velocity), torque);
+  const TorqueTable::Point point = table.at(direction < 0 ? -std::fabs(velocity) : std::fabs(velocity), torque);
   if (point.saturated || std::fabs(torque) > limits.torque_share * point.pull_out_torque) return std::nullopt;
   return Equilibrium{point.load_angle, point.stiffness + load_.spring / MotorData::pole_pairs, torque,
                      limits.angle_share * point.pull_out_angle, point.pull_out_torque};
@@ -108,30 +93,49 @@ bool MotorShaft::swings(double frequency) const {
   return frequency > 2 * swing_decay();
 }
 
-/// The field turns, and the rotor with it.
-std::optional<MotorShaft::Arrival> MotorShaft::following(const Field& field, double seconds) const {
+std::optional<MotorShaft::MovingBalance> MotorShaft::moving_balance(const Field& field, double seconds,
+                                                                    const TorqueTable& torques) const {
   constexpr Limits limits = Limits::to_stay();
-  const TorqueTable& torques = table(field.amplitude);
-  const double end_angle = field.angle_after(seconds);
   const double end_velocity = field.velocity_after(seconds);
-  const std::optional<Equilibrium> last = moving_equilibrium(memory_.rotor.angle + end_angle - field.angle,
-                                                             end_velocity, field.acceleration, torques, limits);
+  const double end_angle = memory_.rotor.angle + field.angle_after(seconds) - field.angle;
+  const std::optional<Equilibrium> last =
+      moving_equilibrium(end_angle, end_velocity, field.acceleration, torques, limits);
   if (!last) return std::nullopt;
-  const bool steady = field.acceleration == 0 && load_.spring == 0;
   const std::optional<Equilibrium> first =
-      steady ? last : moving_equilibrium(memory_.rotor.angle, field.velocity, field.acceleration, torques, limits);
+      keeps_its_balance(field)
+          ? last
+          : moving_equilibrium(memory_.rotor.angle, field.velocity, field.acceleration, torques, limits);
   if (!first) return std::nullopt;
 
   const double frequency = natural_frequency(*last);
   if (!swings(frequency) || shakes(field.velocity, end_velocity, frequency)) return std::nullopt;
+  return MovingBalance{*first, *last, DampedOscillator(swing_decay(), frequency)};
+}
+
+/// With neither acceleration nor spring it does not depend on where and for how long the field turns.
+std::optional<MotorShaft::MovingBalance> MotorShaft::remembered_balance(const Field& field, double seconds) const {
+  const TorqueTable& torques = table(field.amplitude);
+  if (!keeps_its_balance(field)) return moving_balance(field, seconds, torques);
+  if (!even_balance_ || even_balance_->velocity != field.velocity) {
+    even_balance_ = {field.velocity, moving_balance(field, seconds, torques)};
+  }
+  return even_balance_->balance;
+}
+
+/// The field turns, and the rotor with it.
+std::optional<MotorShaft::Arrival> MotorShaft::following(const Field& field, double seconds) const {
+  constexpr Limits limits = Limits::to_stay();
+  const std::optional<MovingBalance> balance = remembered_balance(field, seconds);
+  if (!balance) return std::nullopt;
+  const auto& [first, last, oscillator] = *balance;
+  const double end_angle = field.angle_after(seconds);
 
   // The equilibrium itself moves evenly from first to last; lead and its rate are continuous.
-  const double drift = (last->lead - first->lead) / seconds;
-  const DampedOscillator oscillator(swing_decay(), frequency);
-  const double lead_now = lead(field.angle, memory_.rotor.angle, first->lead);
-  const Swing swing{lead_now - first->lead, radians_per_turn * (field.velocity - memory_.rotor.velocity) - drift};
+  const double drift = (last.lead - first.lead) / seconds;
+  const double lead_now = lead(field.angle, memory_.rotor.angle, first.lead);
+  const Swing swing{lead_now - first.lead, radians_per_turn * (field.velocity - memory_.rotor.velocity) - drift};
   const double amplitude = oscillator.amplitude(swing);
-  if (amplitude > limits.swing || std::max(std::fabs(first->lead), std::fabs(last->lead)) + amplitude > last->most_lead)
+  if (amplitude > limits.swing || std::max(std::fabs(first.lead), std::fabs(last.lead)) + amplitude > last.most_lead)
     return std::nullopt;
 
   const double pole = field.angle - memory_.rotor.angle - lead_now / radians_per_turn;
@@ -146,11 +150,11 @@ std::optional<MotorShaft::Arrival> MotorShaft::following(const Field& field, dou
   constexpr double no_swing = 1e-8;
   const bool swings_on = amplitude >= no_swing;
   const Swing then = swings_on ? oscillator.after(swing, seconds) : Swing{};
-  return Arrival{.rotor = {.angle = end_angle - pole - (last->lead + then.deviation) / radians_per_turn,
-                           .velocity = end_velocity - (drift + then.rate) / radians_per_turn},
-                 .torque = last->torque,
-                 .pull_out_torque = last->pull_out_torque,
-                 .is_even = steady && !swings_on,
+  return Arrival{.rotor = {.angle = end_angle - pole - (last.lead + then.deviation) / radians_per_turn,
+                           .velocity = field.velocity_after(seconds) - (drift + then.rate) / radians_per_turn},
+                 .torque = last.torque,
+                 .pull_out_torque = last.pull_out_torque,
+                 .is_even = keeps_its_balance(field) && !swings_on,
                  .is_cruise = false};
 }
 
