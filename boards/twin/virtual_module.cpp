@@ -206,6 +206,13 @@ void VirtualModule::leave_out_vain_turns(Microseconds time) {
   next_turn_ = std::min(next_turn_ + left_out * period, watches_until_);
 }
 
+/// Taken or left out must not depend on whether time is cut here: a turn takes its time, so later ones would shift.
+bool VirtualModule::is_vain_turn() {
+  if (next_turn_ >= watches_until_) return false;
+  bring_world_to_present();
+  return world_.input_changes() == noted_input_changes_ && world_.motion_changes() == noted_motion_changes_;
+}
+
 Microseconds VirtualModule::next_act() const {
   Microseconds next = never;
   for (const BenchActor* actor : actors_) next = std::min(next, actor->next_act());
@@ -229,7 +236,12 @@ void VirtualModule::advance_to(Microseconds time) {
         if (actor->next_act() <= now_) actor->act(*this);
       }
     }
-    if (next_firmware_turn() <= now_) take_turn();
+    if (next_firmware_turn() > now_) continue;
+    if (is_vain_turn()) {
+      next_turn_ = std::min(next_turn_ + Executor::wait_poll_period, watches_until_);
+    } else {
+      take_turn();
+    }
   }
   now_ = std::max(now_, time);
   bring_world_to_present();

@@ -103,6 +103,7 @@ class VirtualModule final : public Simulated {
     if (world_.now() < present) world_.advance_to(present);
   }
   void leave_out_vain_turns(Microseconds time);
+  bool is_vain_turn();
   Microseconds next_firmware_turn() const { return world_.input_changes() == noted_input_changes_ ? next_turn_ : now_; }
   Microseconds next_act() const;
 
