@@ -33,6 +33,18 @@ void MotorBench::set_load_torque(double torque) {
   module.world().set_load(load);
 }
 
+void MotorBench::set_brake(double torque) {
+  twin::Load load = world().load();
+  load.coulomb_friction = torque;
+  module.world().set_load(load);
+}
+
+void MotorBench::jam() {
+  twin::Load load = world().load();
+  load.jammed = true;
+  module.world().set_load(load);
+}
+
 void MotorBench::rotate(double rpm) {
   const std::int32_t velocity = velocity_of(std::abs(rpm));
   command(rpm < 0 ? Opcode::rol : Opcode::ror, 0, 0, velocity);

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "firmware/motion/motion_guard.hpp"
 #include "tests/module/bench.hpp"
 
 namespace opentmcl::tests {
@@ -27,6 +28,11 @@ double holding_torque();
 /// The motor of both modules on a shaft that turns freely.
 VirtualModule::Options free_shaft();
 
+/// In parameter 207.
+constexpr std::int32_t flag_of(AxisEvent stop) {
+  return static_cast<std::int32_t>(stop);
+}
+
 /// For the names of tests that are done with both modules.
 std::string name_of_module(const testing::TestParamInfo<ModuleId>& tested);
 
@@ -43,6 +49,10 @@ class MotorBench : public Bench {
   void wait_ms(unsigned milliseconds) { wait(milliseconds * one_millisecond); }
   /// N m against rising positions, from now on.
   void set_load_torque(double torque);
+  /// N m against any motion, from now on.
+  void set_brake(double torque);
+  /// From now on the shaft stays where it is.
+  void jam();
   /// Turns on at that speed, up to speed when this returns. @param rpm negative to the left
   void rotate(double rpm);
 
@@ -50,6 +60,7 @@ class MotorBench : public Bench {
   std::int32_t position() { return get(AxisParameter::actual_position); }
   /// The ramp generator's, read at the chip: takes no time. Only while 24 bits hold it.
   std::int32_t position_at_once() const;
+  double rotor_rpm() const { return motor().state().velocity / twin::MotorData::pole_pairs * 60; }
   /// Full steps of the ramp generator which the rotor has not made.
   double full_steps_lost();
 };
