@@ -147,7 +147,7 @@ ScenarioFile read_scenario(std::string_view text) {
   try {
     return Reader().read(toml::parse(text));
   } catch (const toml::parse_error& error) {
-    return {std::nullopt, {{place_of(error.source()), std::string(error.description())}}};
+    return {std::nullopt, {{place_of(error.source()), description_of(error)}}};
   }
 }
 

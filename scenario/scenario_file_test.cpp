@@ -152,6 +152,8 @@ TEST(ScenarioFile, HasOneProblemWhenItIsNotToml) {
   const std::string problems = format(read_scenario("duration = \"10 s\"\nmodule = \n").problems, "f");
   EXPECT_THAT(problems, HasSubstr("f:2:10: "));
   EXPECT_EQ(std::count(problems.begin(), problems.end(), '\n'), 1);
+  EXPECT_EQ(format(read_scenario("duration = \"10 s\nmodule = \"pd1161\"\n").problems, "f"),
+            "f:1:17: the text does not end in its line: expected a quote\n");
 }
 
 TEST(ScenarioFile, KnowsWhatBelongsTogether) {

@@ -35,6 +35,13 @@ Place place_within(const toml::node& node, std::size_t offset) {
   return {region.begin.line, region.begin.column + 1 + characters_in(std::string_view(content).substr(0, offset))};
 }
 
+std::string description_of(const toml::parse_error& error) {
+  const std::string_view description = error.description();
+  // All that toml++ knows of a missing quote is that the text has gone on to the end of the line.
+  if (description.find("unescaped control characters") == std::string_view::npos) return std::string(description);
+  return "the text does not end in its line: expected a quote";
+}
+
 std::string_view kind_of(const toml::node& node) {
   switch (node.type()) {
     case toml::node_type::table:

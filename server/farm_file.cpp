@@ -59,7 +59,7 @@ class Reader {
     try {
       read(toml::parse(text, path_));
     } catch (const toml::parse_error& error) {
-      report(error.source(), std::string(error.description()));
+      report(error.source(), scenario::description_of(error));
     }
     return finish();
   }
@@ -72,7 +72,15 @@ class Reader {
         report(key.source(), "expected [[" + std::string(key.str()) + "]], with two brackets");
       }
     }
-    read_keys(root, farm_keys(), "a farm", file_.description, farm_sections);
+    std::vector<std::string_view> other_keys(std::begin(farm_sections), std::end(farm_sections));
+    for (const scenario::SectionName& section : scenario::bench_sections()) {
+      if (!root.contains(section.name)) continue;
+      const std::string name(section.name);
+      report(root, section.name,
+             name + " is said of each module: expected [module." + name + "] behind its [[module]]");
+      other_keys.push_back(section.name);
+    }
+    read_keys(root, farm_keys(), "a farm", file_.description, other_keys);
     for_each(root, farm_rs485_section, [this](const toml::table& table) { read_rs485_line(table); });
     for_each(root, farm_can_section, [this](const toml::table& table) { read_can_bus(table); });
     for_each(root, farm_module_section, [this](const toml::table& table) { read_module(table); });

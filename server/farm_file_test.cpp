@@ -251,6 +251,8 @@ constexpr Mistake mistakes[] = {
      ":4:33: error: 'N' is not the unit of a torque"},
     {"load_of_ideal_motor", "[[module]]\nname=\"a\"\ntcp=0\nmotor=\"ideal\"\nload = { torque = 1 }\n",
      ":5:10: error: load.torque does not exist with an ideal motor"},
+    {"bench_of_no_module", "[[module]]\nname=\"a\"\ntcp=0\n[machine]\nkind = \"free\"\n",
+     ":4:1: error: machine is said of each module: expected [module.machine] behind its [[module]]"},
     {"misspelt_bench", "[[module]]\nname=\"a\"\ntcp=0\nmotr = \"ideal\"\n",
      ":4:1: error: a [[module]] has no key 'motr': did you mean motor?"},
     {"no_group", "[[module]]\nname=\"a\"\nkind=\"tmcm1110\"\ncan_udp = \"239.1.1.1\"\n",
