@@ -193,7 +193,6 @@ void VirtualModule::take_turn() {
 /// A program that waits for a position looks every millisecond. As long as nothing has changed it sees nothing, so
 /// these turns are left out: what happens, and when, is the same.
 void VirtualModule::leave_out_vain_turns(Microseconds time) {
-  if (watches_until_ <= next_turn_) return;
   const Microseconds end = std::min({watches_until_, time, next_act()});
   const bool is_awaited =
       world_.input_changes() != noted_input_changes_ || world_.motion_changes() != noted_motion_changes_;
@@ -225,7 +224,7 @@ Microseconds VirtualModule::next_turn() const {
 
 void VirtualModule::advance_to(Microseconds time) {
   while (true) {
-    leave_out_vain_turns(time);
+    if (watches_until_ > next_turn_) leave_out_vain_turns(time);
     const Microseconds act = next_act();
     const Microseconds turn = std::min(next_firmware_turn(), act);
     if (turn > time) break;

@@ -35,10 +35,6 @@ std::int32_t regulated(std::int32_t current, Word<ChopperConfiguration> configur
 
 }  // namespace
 
-void Tmc262::advance(std::uint64_t clock) {
-  clock_ = std::max(clock_, clock);
-}
-
 // ---- Registers
 
 std::uint32_t Tmc262::transfer(std::uint32_t word, std::uint64_t clock) {

@@ -54,7 +54,9 @@ class Tmc262 {
   // ---- World door
 
   /// Time has come to `clock`; a past one changes nothing.
-  void advance(std::uint64_t clock);
+  void advance(std::uint64_t clock) {
+    if (clock > clock_) clock_ = clock;
+  }
   std::uint64_t clock() const { return clock_; }
 
   /// Power-on: the clock is 0, registers and ENN too. Board, motor, wires, supply and temperature stay.

@@ -336,14 +336,6 @@ std::uint64_t Tmc429::clock_of(std::uint64_t tick) const {
   return tick * tmc429::clock_prescaler + stopped_clocks_;
 }
 
-Tmc429::Motion Tmc429::motion(unsigned motor) const {
-  const Tmc429RampState& state = axes_[motor].ramp().state();
-  return {.position = state.position,
-          .accumulator = state.accumulator,
-          .velocity_with_fraction = state.velocity,
-          .pulse_divider = state.settings.pulse_divider};
-}
-
 void Tmc429::set_left_switch(bool level, unsigned motor) {
   left_pins_[motor] = level;
   update_switches();

@@ -60,6 +60,11 @@ class Tmc429 {
   /// The 24 data bits that a read datagram would be answered with; changes nothing.
   std::uint32_t read(std::uint32_t datagram) const;
 
+  /// As last written.
+  tmc429::Word<tmc429::InterfaceConfiguration> interface_configuration() const {
+    return output_settings_.interface_configuration;
+  }
+
   /// Where a motor is within and between its steps. The next step comes when 2048 is reached in the accumulator, to
   /// which every 32 * 2^pulse_divider clocks the integer part of |velocity| is added.
   struct Motion {
@@ -70,7 +75,13 @@ class Tmc429 {
 
     friend bool operator==(const Motion&, const Motion&) = default;
   };
-  Motion motion(unsigned motor = 0) const;
+  Motion motion(unsigned motor = 0) const {
+    const Tmc429RampState& state = axes_[motor].ramp().state();
+    return {.position = state.position,
+            .accumulator = state.accumulator,
+            .velocity_with_fraction = state.velocity,
+            .pulse_divider = state.settings.pulse_divider};
+  }
   /// X_ACTUAL is X_TARGET.
   bool at_target(unsigned motor = 0) const { return axes_[motor].at_target(); }
   /// The velocity has changed lately, so that advance_until_change() does not wait for its change.

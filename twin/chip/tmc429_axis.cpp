@@ -1,7 +1,5 @@
 #include "twin/chip/tmc429_axis.hpp"
 
-#include "twin/chip/tmc429_choices.hpp"
-
 namespace opentmcl::twin {
 namespace {
 
@@ -206,10 +204,6 @@ Tmc429Reach Tmc429Axis::reach_to_consequences() const {
   return reach;
 }
 
-bool Tmc429Axis::reference_switch() const {
-  return Mode::ReferenceIsRight::is_set(mode_) ? right_switch_ : left_switch_;
-}
-
 /// The directions that would be blocked if there were no tolerance.
 Tmc429Blocked Tmc429Axis::stop_switches() const {
   return {
@@ -223,15 +217,6 @@ Tmc429Blocked Tmc429Axis::blocked_directions() const {
   const bool tolerated =
       reference_tolerance_ != 0 && tmc429_choices::within_tolerance(ramp_.position(), reference_tolerance_);
   return tolerated ? Tmc429Blocked{} : stop_switches();
-}
-
-Tmc429Axis::Conditions Tmc429Axis::conditions() const {
-  return {
-      .at_target = ramp_.at_target(),
-      .reference_wrong =
-          reference_switch() && !tmc429_choices::within_tolerance(ramp_.position(), reference_tolerance_),
-      .reference_missed = ramp_.position() == 0 && !reference_switch(),
-  };
 }
 
 /// To be called after every step, write and switch edge: all that depends on position and switches follows.

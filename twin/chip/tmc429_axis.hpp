@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "firmware/chip/tmc429_registers.hpp"
+#include "twin/chip/tmc429_choices.hpp"
 #include "twin/chip/tmc429_ramp.hpp"
 #include "twin/chip/tmc429_reach.hpp"
 
@@ -57,11 +58,18 @@ class Tmc429Axis {
     friend bool operator==(const Conditions&, const Conditions&) = default;
   };
 
-  Conditions conditions() const;
+  Conditions conditions() const {
+    return {
+        .at_target = ramp_.at_target(),
+        .reference_wrong =
+            reference_switch() && !tmc429_choices::within_tolerance(ramp_.position(), reference_tolerance_),
+        .reference_missed = ramp_.position() == 0 && !reference_switch(),
+    };
+  }
   void after_change();
   void raise(tmc429::Word<tmc429::Interrupts> flag);
   void write_interrupts(tmc429::Word<tmc429::Interrupts> word);
-  bool reference_switch() const;
+  bool reference_switch() const { return tmc429::Mode::ReferenceIsRight::is_set(mode_) ? right_switch_ : left_switch_; }
   Tmc429Reach reach_to_consequences() const;
   Tmc429Blocked stop_switches() const;
   Tmc429Blocked blocked_directions() const;

@@ -44,15 +44,10 @@ bool is_write(std::uint32_t datagram) {
   return !tmc429::Datagram::Read::is_set({datagram});
 }
 
-tmc429::Word<tmc429::InterfaceConfiguration> interface_configuration(const Tmc429& chip) {
-  using tmc429::InterfaceConfiguration;
-  return tmc429::word_in<InterfaceConfiguration>(chip.read(tmc429::read_datagram<InterfaceConfiguration>()));
-}
-
 /// By which the field moves while the motion controller makes one step, negative with DIR inverted.
 double microsteps_a_step(const Tmc429& motion_controller, std::int32_t microsteps_a_pulse) {
   using tmc429::InterfaceConfiguration;
-  const auto configuration = interface_configuration(motion_controller);
+  const auto configuration = motion_controller.interface_configuration();
   const double pulses = InterfaceConfiguration::StepOnBothEdges::is_set(configuration) ? 0.5 : 1.0;
   return InterfaceConfiguration::InvertDirection::is_set(configuration) ? -pulses * microsteps_a_pulse
                                                                         : pulses * microsteps_a_pulse;

@@ -199,10 +199,4 @@ void World::update_switches(Tick tick) {
   drive_train_.set_switches(levels_.left, levels_.right);
 }
 
-void World::report(Tick tick, std::string_view signal, std::int64_t value) {
-  if (observer_ != nullptr) {
-    observer_->changed(tick, signal, value);
-  }
-}
-
 }  // namespace opentmcl::twin

@@ -157,7 +157,9 @@ class World final : private ShaftSurroundings {
   std::int64_t distance_to_event() const override;
   Tick next_event(Tick tick) const override { return machine_.next_chatter(tick); }
   Tick shortest_event() const override { return machine_.shortest_chatter(); }
-  void report(Tick tick, std::string_view signal, std::int64_t value) override;
+  void report(Tick tick, std::string_view signal, std::int64_t value) override {
+    if (observer_ != nullptr) observer_->changed(tick, signal, value);
+  }
   void update_switches(Tick tick);
   void report_shaft(Tick tick);
   void report_encoder(Tick tick);
