@@ -81,19 +81,11 @@ std::uint32_t Tmc429::transfer(std::uint32_t datagram) {
 }
 
 std::uint32_t Tmc429::status_byte() const {
-  Word<Reply> status;
-  const auto set_if = [&status](bool condition, Word<Reply> bit) {
-    if (condition) {
-      status = status | bit;
-    }
-  };
-  set_if(interrupt(), Reply::Interrupt::set);
-  set_if(axes_[0].at_target(), Reply::AtTarget1::set);
-  set_if(axes_[1].at_target(), Reply::AtTarget2::set);
-  set_if(axes_[2].at_target(), Reply::AtTarget3::set);
-  set_if(axes_[0].left_switch(), Reply::LeftSwitch1::set);
-  set_if(axes_[1].left_switch(), Reply::LeftSwitch2::set);
-  set_if(axes_[2].left_switch(), Reply::LeftSwitch3::set);
+  const Word<Reply> status = Reply::Interrupt::of(interrupt()) | Reply::AtTarget1::of(axes_[0].at_target()) |
+                             Reply::AtTarget2::of(axes_[1].at_target()) | Reply::AtTarget3::of(axes_[2].at_target()) |
+                             Reply::LeftSwitch1::of(axes_[0].left_switch()) |
+                             Reply::LeftSwitch2::of(axes_[1].left_switch()) |
+                             Reply::LeftSwitch3::of(axes_[2].left_switch());
   return status.bits;
 }
 
@@ -217,7 +209,11 @@ void Tmc429::advance_all(std::uint64_t clocks, unsigned motor, Until until, std:
     stopped_clocks_ += clocks;
     return;
   }
-  const std::uint64_t end = advance_motor(motor, clock_ + clocks, until, step_clocks);
+  std::uint64_t end = clock_ + clocks;
+  const bool is_even = rests(motor, tick_at(end)) || (step_clocks == nullptr && coasts(motor, tick_at(end)));
+  if (!is_even) {
+    end = advance_motor(motor, end, until, step_clocks);
+  }
   const std::uint64_t end_tick = tick_at(end);
   for (unsigned other = 0; other < tmc429::motor_count; ++other) {
     // Most modules have one motor: the other two should cost next to nothing.
@@ -233,10 +229,6 @@ std::uint64_t Tmc429::advance_motor(unsigned motor, std::uint64_t end, Until unt
                                     std::vector<std::uint64_t>* step_clocks) {
   Tmc429Axis& axis = axes_[motor];
   Tmc429StepOutput& output = outputs_[motor];
-  const bool is_even = rests(motor, tick_at(end)) || (step_clocks == nullptr && coasts(motor, tick_at(end)));
-  if (is_even) {
-    return end;
-  }
   const std::int32_t velocity_before = axis.ramp().state().velocity;
   while (true) {
     // The ramp must not run past a delayed step: that may press a switch.
