@@ -109,7 +109,7 @@ void DriveTrain::run(Tick tick) {
   const bool is_new_motion = watches_ramp_ && tmc429_->motion(driven_motor).velocity_with_fraction != velocity_;
   if (now_ == step_input_.next()) {
     step_input_.take();
-    pulse_step(step_input_.direction());
+    take_pulse(step_input_.direction());
   }
   if (is_new_motion || now_ == end_of_span_) {
     commit();
@@ -314,6 +314,12 @@ void DriveTrain::set_load_measurement(std::int32_t value) {
 }
 
 void DriveTrain::pulse_step(bool direction) {
+  commit();
+  take_pulse(direction);
+  begin_span();
+}
+
+void DriveTrain::take_pulse(bool direction) {
   const std::uint64_t clock = now_ - powered_at_;
   steps({driven_motor, 1, clock, clock, StepSignal::pulse, direction});
 }

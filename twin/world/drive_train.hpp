@@ -108,6 +108,7 @@ class DriveTrain final : private StepListener {
 
  private:
   void steps(const StepRun& run) override;
+  void take_pulse(bool direction);
   void commit();
   void begin_span();
   Tick end_of_span();

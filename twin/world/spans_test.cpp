@@ -2,7 +2,11 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
+#include <random>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "twin/world/world_test_bench.hpp"
 
@@ -68,6 +72,64 @@ TEST(Spans, MoveTheFieldTheWayOfAnInvertedDirection) {
   EXPECT_LT(world.motor()->state().velocity, -1.0);
   EXPECT_LT(world.field().velocity, -1.0);
   EXPECT_EQ(world.motor()->regime(), Regime::locked);
+}
+
+/// Turns at changing speeds under changing loads, long enough at each for the longest of spans.
+struct EvenSession {
+  std::uint64_t seed;
+  Tick slice;
+  bool looks;
+  bool is_recorded;
+
+  /// Where the motor is after each of them, to the last bit.
+  std::vector<double> run() const {
+    struct : TraceObserver {
+      void changed(Tick, std::string_view, std::int64_t) override {}
+    } recording;
+    World world(is_recorded ? &recording : nullptr, bench_machine());
+    start(world, 2);
+    world.transfer_tmc262(tmc262::datagram(tmc262::StallGuardAndCurrent::CurrentScale::of(31)));
+    write(world, tmc429::Mode::of(tmc429::RampMode::velocity));
+    std::mt19937_64 random(seed);
+    const auto next = [&random](std::uint64_t below) { return random() % below; };
+    std::vector<double> states;
+    for (int i = 0; i < 6; ++i) {
+      Load load = world.load();
+      load.torque = 0.02 * static_cast<double>(next(8));
+      world.set_load(load);
+      if (next(2) == 0) set<tmc429::TargetVelocity>(world, static_cast<std::int32_t>(next(200)) - 100);
+      const Tick end = world.now() + next(1500 * millisecond) + 1;
+      while (world.now() < end) {
+        world.advance_to(std::min(end, world.now() + slice));
+        if (looks) static_cast<void>(world.rotor_angle() + world.encoder().count());
+      }
+      const MotorShaft::State state = world.present_motor()->state();
+      states.insert(states.end(), {state.angle, state.velocity, static_cast<double>(world.encoder_count())});
+    }
+    return states;
+  }
+};
+
+RC_GTEST_PROP(Spans, OfAnEvenMotionDoNotDependOnSlicesLooksOrRecordings, ()) {
+  const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+  const auto slice = *rc::gen::element<Tick>(16'000, 77'777, 160'000, 3'000'000);
+  const auto whole = EvenSession{seed, 1'000'000'000, false, false}.run();
+  RC_ASSERT((EvenSession{seed, slice, true, false}.run()) == whole);
+  RC_ASSERT((EvenSession{seed, slice, true, true}.run()) == whole);
+}
+
+/// A motor at rest needs no grid, until something moves its field.
+TEST(Spans, EndWhereAPulseMovesAMotorAtRest) {
+  World world(nullptr, bench_machine());
+  start(world);
+  world.transfer_tmc262(tmc262::datagram(tmc262::StallGuardAndCurrent::CurrentScale::of(31)));
+  world.advance_to(3000 * millisecond);
+  ASSERT_LT(world.motor()->now(), world.now());
+  for (int pulse = 0; pulse < 200; ++pulse) world.pulse_step_input(false);
+  EXPECT_EQ(world.motor()->now(), world.now());
+  world.advance_to(4000 * millisecond);
+  EXPECT_GT(world.motor()->now(), 3000 * millisecond);
+  EXPECT_NEAR(static_cast<double>(world.rotor_angle()), 200, 20);
 }
 
 /// A short does not take the time before it from the motor.
