@@ -165,7 +165,7 @@ VirtualModule::~VirtualModule() = default;
 void VirtualModule::restart() {
   const Extensions& extensions = options_.extensions != nullptr ? *options_.extensions : no_extensions;
   module_ = std::make_unique<Module>(description_, board_->hal, extensions);
-  wake();
+  next_turn_ = watches_until_ = now_;
 }
 
 void VirtualModule::power_cycle() {
@@ -173,12 +173,20 @@ void VirtualModule::power_cycle() {
   restart();
 }
 
+void VirtualModule::wake() {
+  if (next_firmware_turn() > now_) takes_extra_turn_ = true;
+  next_turn_ = watches_until_ = now_;
+}
+
 void VirtualModule::take_turn() {
   const Microseconds time = now_;
+  const bool is_extra = std::exchange(takes_extra_turn_, false);
+  if (is_extra && options_.extra_turns != nullptr) options_.extra_turns->extra_turn(time);
   if (world_.input_changes() != noted_input_changes_) {
     noted_input_changes_ = world_.input_changes();
     module_->note_input_change();
   }
+  ++turns_;
   const Microseconds wanted = module_->poll(time);
   if (module_->restart_requested()) {
     restart();
@@ -222,6 +230,15 @@ Microseconds VirtualModule::next_turn() const {
   return std::min(next_firmware_turn(), next_act());
 }
 
+void VirtualModule::let_actors_act() {
+  const bool takes_extra_turn = takes_extra_turn_;
+  for (BenchActor* actor : actors_) {
+    if (actor->next_act() <= now_) actor->act(*this);
+  }
+  // They wake the module in every run alike.
+  takes_extra_turn_ = takes_extra_turn;
+}
+
 void VirtualModule::advance_to(Microseconds time) {
   while (true) {
     if (watches_until_ > next_turn_) leave_out_vain_turns(time);
@@ -231,9 +248,7 @@ void VirtualModule::advance_to(Microseconds time) {
     now_ = std::max(now_, turn);
     if (act <= now_) {
       bring_world_to_present();
-      for (BenchActor* actor : actors_) {
-        if (actor->next_act() <= now_) actor->act(*this);
-      }
+      let_actors_act();
     }
     if (next_firmware_turn() > now_) continue;
     if (is_vain_turn()) {

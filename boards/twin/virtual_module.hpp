@@ -30,6 +30,17 @@ class BenchActor {
   ~BenchActor() = default;
 };
 
+/// Hears of the turns that a module takes only because somebody has woken it. When that is, is up to whoever carries
+/// the module and not to the module; who hears of it can wake it at the same times in another run.
+class ExtraTurnObserver {
+ public:
+  /// Called before the turn.
+  virtual void extra_turn(Microseconds now) = 0;
+
+ protected:
+  ~ExtraTurnObserver() = default;
+};
+
 /// A module as on the bench: the firmware on a board whose chips, motor and EEPROM are models. It only knows simulated
 /// time; the same bytes at the same times give the same replies and the same motion.
 class VirtualModule final : public Simulated {
@@ -52,6 +63,8 @@ class VirtualModule final : public Simulated {
     std::shared_ptr<twin::TorqueTables> tables = {};
     /// The module's end of a CAN bus, or none; must outlive the module. A PD-1161 does not look at it.
     hal::CanPort* can = nullptr;
+    /// May be nullptr, else it must outlive the module.
+    ExtraTurnObserver* extra_turns = nullptr;
   };
 
   /// @param ports at most 4; what they point to must outlive the module
@@ -76,7 +89,10 @@ class VirtualModule final : public Simulated {
   void add_actor(BenchActor& actor) { actors_.push_back(&actor); }
 
   /// Something happened outside, such as bytes on a port: the firmware takes a turn at now() in the next advance_to().
-  void wake() override { next_turn_ = watches_until_ = now_; }
+  void wake() override;
+
+  /// Turns that the firmware has taken since the module was made.
+  std::uint64_t turns() const { return turns_; }
 
   /// When the firmware or an actor next needs to run if nothing happens outside; `never` while the firmware only waits
   /// for commands and no actor has anything to do.
@@ -98,6 +114,7 @@ class VirtualModule final : public Simulated {
 
   void restart();
   void take_turn();
+  void let_actors_act();
   void bring_world_to_present() {
     const twin::Tick present = now_ * twin::ticks_per_microsecond;
     if (world_.now() < present) world_.advance_to(present);
@@ -119,7 +136,9 @@ class VirtualModule final : public Simulated {
   Microseconds next_turn_ = 0;
   /// Until then the firmware's turns only look whether the motion or a switch has changed.
   Microseconds watches_until_ = 0;
+  bool takes_extra_turn_ = false;  ///< the next turn is taken only because somebody woke the module
   std::uint64_t noted_motion_changes_ = 0;
+  std::uint64_t turns_ = 0;
   std::uint64_t noted_input_changes_ = 0;  ///< of the world, as the firmware knows of
 };
 

@@ -61,5 +61,69 @@ TEST(BenchActor, WhoComesTooLateActsAtOnceAndLosesNothing) {
   EXPECT_THAT(visitor.came(), ElementsAre(one_millisecond, one_millisecond, 2 * one_millisecond));
 }
 
+/// Notes when the firmware takes turns that it would not take by itself.
+class Listener : public ExtraTurnObserver {
+ public:
+  void extra_turn(Microseconds now) override { heard.push_back(now); }
+
+  std::vector<Microseconds> heard;
+};
+
+TEST(ExtraTurns, AreTakenWhenSomebodyWakesTheModule) {
+  Listener listener;
+  VirtualModule::Options options;
+  options.extra_turns = &listener;
+  VirtualModule module(pd1161, {}, options);
+  module.advance_to(1'234'567);
+  EXPECT_THAT(listener.heard, ElementsAre());
+  const std::uint64_t turns = module.turns();
+  module.wake();
+  module.wake();
+  module.advance_to(module.now());
+  module.wake();
+  module.advance_to(2'000'000);
+  EXPECT_THAT(listener.heard, ElementsAre(1'234'567u, 1'234'567u));
+  EXPECT_GE(module.turns(), turns + 2);
+}
+
+TEST(ExtraTurns, AreNoneThatAreDueAnyway) {
+  Listener listener;
+  VirtualModule::Options options;
+  options.extra_turns = &listener;
+  VirtualModule module(pd1161, {}, options);
+  module.wake();  // the first turn after power-on is still to come
+  module.advance_to(1'000'000);
+  module.power_cycle();
+  module.wake();
+  module.advance_to(module.now());
+  EXPECT_THAT(listener.heard, ElementsAre());
+}
+
+/// Wakes the module whenever it comes.
+class Waker : public Visitor {
+ public:
+  using Visitor::Visitor;
+
+  void act(VirtualModule& module) override {
+    Visitor::act(module);
+    module.wake();
+  }
+};
+
+TEST(ExtraTurns, AreNotThoseForWhichSomebodyAtTheBenchWakesTheModule) {
+  Listener listener;
+  VirtualModule::Options options;
+  options.extra_turns = &listener;
+  VirtualModule module(pd1161, {}, options);
+  Waker waker({1'234'567, 1'300'000});
+  module.add_actor(waker);
+  module.advance_to(1'234'566);
+  const std::uint64_t turns = module.turns();
+  module.advance_to(1'234'567);
+  EXPECT_EQ(module.turns(), turns + 1);
+  module.advance_to(2'000'000);
+  EXPECT_THAT(listener.heard, ElementsAre());
+}
+
 }  // namespace
 }  // namespace opentmcl
