@@ -88,6 +88,9 @@ class VirtualModule final : public Simulated {
   /// `actor` acts from now on, those that were added earlier first; it must outlive the module.
   void add_actor(BenchActor& actor) { actors_.push_back(&actor); }
 
+  /// `actor` acts no more. @pre not called while one acts
+  void remove_actor(const BenchActor& actor) { std::erase(actors_, &actor); }
+
   /// Something happened outside, such as bytes on a port: the firmware takes a turn at now() in the next advance_to().
   void wake() override;
 

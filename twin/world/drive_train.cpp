@@ -196,6 +196,12 @@ void DriveTrain::set_detail(bool every_step) {
   tmc429_->set_detail(every_step || reports_steps_ ? StepDetail::edges : StepDetail::runs);
 }
 
+void DriveTrain::report_steps(bool wanted) {
+  reports_steps_ = wanted;
+  // A span in which single steps are told for nothing does no harm; the next one begins without them.
+  if (wanted) tmc429_->set_detail(StepDetail::edges);
+}
+
 FieldTracker::Drive DriveTrain::drive() const {
   using Coil = Tmc262::Coil;
   const bool bridge_a_on = tmc262_.bridge_on(Coil::a);

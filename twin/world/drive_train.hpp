@@ -90,6 +90,8 @@ class DriveTrain final : private StepListener {
   /// Pulses on STEP that do not come from the TMC429, from now on. @param rate as for StepInput::set_rate()
   void set_step_input_rate(double rate);
   double step_input_rate() const { return step_input_.rate(); }
+  /// Whether the surroundings hear of every step from now on. Changes nothing else.
+  void report_steps(bool wanted);
   /// A contact is about to chatter: what the surroundings say of their events is new.
   void expect_other_events() { commit(); }
 

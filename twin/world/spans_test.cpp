@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <random>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "twin/world/digest.hpp"
 #include "twin/world/world_test_bench.hpp"
 
 namespace opentmcl::twin {
@@ -57,6 +59,45 @@ RC_GTEST_PROP(Spans, DoNotDependOnHowTimeIsCutOrWhoLooks, ()) {
   const std::string whole = Session{seed, 1'000'000'000, false}.run();
   RC_ASSERT((Session{seed, slice, false}.run()) == whole);
   RC_ASSERT((Session{seed, slice, true}.run()) == whole);
+}
+
+/// The lines of a trace that tell of steps, from `tick` on.
+std::string steps_since(Tick tick, const std::string& trace) {
+  std::istringstream lines(trace);
+  std::string steps;
+  for (std::string line; std::getline(lines, line);) {
+    const bool tells_of_step =
+        line.find(" step ") != std::string::npos || line.find(" direction ") != std::string::npos;
+    if (tells_of_step && std::stoull(line) > tick) steps += line + '\n';
+  }
+  return steps;
+}
+
+RC_GTEST_PROP(Spans, DoNotDependOnWhenAnObserverComesAndGoes, ()) {
+  const auto target = *rc::gen::inRange(-20'000, 20'000);
+  const auto comes = *rc::gen::inRange<Tick>(1, 300 * millisecond);
+  const auto stays = *rc::gen::inRange<Tick>(0, 300 * millisecond);
+  const auto run = [&](TraceText& whole, TraceText& part, bool has_visitor) {
+    World world(has_visitor ? nullptr : &whole, bench_machine());
+    start(world, 2);
+    set<tmc429::TargetPosition>(world, target);
+    world.advance_to(comes);
+    if (has_visitor) world.observe(&part);
+    world.advance_to(comes + stays);
+    if (has_visitor) world.observe(nullptr);
+    world.advance_to(700 * millisecond);
+    return digest_of(world);
+  };
+  TraceText whole;
+  TraceText part;
+  TraceText nothing;
+  const std::uint64_t digest = run(whole, nothing, false);
+  RC_ASSERT(run(nothing, part, true) == digest);
+  RC_ASSERT(nothing.text().empty());
+  const std::string steps = steps_since(comes, whole.text());
+  const std::string heard = steps_since(comes, part.text());
+  RC_ASSERT(steps.substr(0, heard.size()) == heard);
+  RC_ASSERT(steps_since(comes + stays, whole.text()) == steps.substr(heard.size()));
 }
 
 TEST(Spans, MoveTheFieldTheWayOfAnInvertedDirection) {

@@ -34,6 +34,13 @@ World::World(TraceObserver* observer, const Mounted& mounted)
   drive_train_.start();
 }
 
+void World::observe(TraceObserver* observer) {
+  observer_ = observer;
+  traced_place_ = machine_.place();
+  traced_count_ = encoder_.count();
+  drive_train_.report_steps(observer != nullptr);
+}
+
 void World::power_cycle() {
   report(now(), "power", 0);
   drive_train_.power_cycle();

@@ -39,6 +39,10 @@ class World final : private ShaftSurroundings {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
+  /// From now on `observer` hears every signal, or nobody if nullptr; it must outlive this and must not call back into
+  /// it. Nothing else depends on whether somebody does.
+  void observe(TraceObserver* observer);
+
   /// Ticks since power-on.
   Tick now() const { return drive_train_.now(); }
   /// Lets time pass until `tick`; a tick that is not in the future changes nothing.
