@@ -16,6 +16,18 @@ class io_context;
 
 namespace opentmcl::server {
 
+/// Looks at a module at certain times of its own, whatever the speed.
+class Watcher {
+ public:
+  /// `never` when it has nothing to look for.
+  virtual Microseconds next_look() const = 0;
+  /// The module has come to that time. Must not change anything.
+  virtual void look() = 0;
+
+ protected:
+  ~Watcher() = default;
+};
+
 /// Runs a virtual module for hosts that live in real time: in one thread, asleep while nothing is to be done.
 ///
 /// At a finite speed the module follows the wall clock in turns at least `shortest_turn` apart; a request is answered
@@ -43,6 +55,40 @@ class LiveSimulation {
   /// From within an event handler: run() returns after this turn.
   void stop() { stopped_ = true; }
 
+  // ---- Control of time, from within an event handler too
+
+  /// Time stands still and requests wait until resume().
+  void pause();
+  bool is_paused() const { return paused_; }
+  /// Goes on at speed().
+  void resume();
+  /// @param speed more than 0, or Pace::maximum
+  void set_speed(double speed);
+  double speed() const { return pace_.speed(); }
+
+  /// Where a run flat out ends.
+  struct Goal {
+    Microseconds time = never;
+    std::uint64_t turns = std::uint64_t(-1);  ///< VirtualModule::turns()
+  };
+  enum class Outcome : std::uint8_t {
+    reached,
+    nothing_to_do,  ///< the firmware takes no more turns by itself
+    out_of_time,    ///< on the wall clock
+    given_up,       ///< by pause(), resume() or carry()
+  };
+  /// Runs flat out, whatever the speed, until one part of `goal` is reached, and is paused from then on; answers
+  /// requests on the way. `done` is called at the end, at once if that is now.
+  /// @param limit on the wall clock @pre !is_running_to_goal()
+  void run_to(Goal goal, WallTime::duration limit, std::function<void(Outcome)> done);
+  bool is_running_to_goal() const { return errand_.has_value(); }
+
+  /// From now on this module is run, from where it is. It must outlive this.
+  void carry(VirtualModule& module);
+
+  /// nullptr: nobody looks; else it must outlive this.
+  void set_watcher(Watcher* watcher) { watcher_ = watcher; }
+
   /// Called after each turn of the loop in which simulated time or requests may have changed the module.
   void after_turn(std::function<void()> callback) { after_turn_ = std::move(callback); }
 
@@ -56,24 +102,40 @@ class LiveSimulation {
   /// Brings the module up to the present, as far as one slice gets, and lets it answer.
   /// @param now the wall clock's time
   void advance(WallTime now);
-  bool is_finished() const { return module_.now() >= end_; }
+  bool is_finished() const { return module_->now() >= end_; }
   /// When advance() is next needed; WallTime::max() when only an event can change anything.
   WallTime next_turn() const;
 
  private:
+  struct Errand {
+    Goal goal;
+    WallTime give_up;
+    std::function<void(Outcome)> done;
+  };
+
   /// Handles an event that comes shortly after a request. @return whether one came
   bool handles_event_soon();
   bool has_nothing_to_simulate() const;
   std::size_t waiting_requests() const;
   void take_turn();
   void serve_ports();
+  /// Lets time pass, but not beyond `goal` nor beyond one step.
+  void take_step(Microseconds goal);
+  Microseconds next_look() const { return watcher_ == nullptr ? never : watcher_->next_look(); }
+  void run_errand(WallTime now);
+  void take_step_towards(const Goal& goal);
+  std::optional<Outcome> outcome_of(const Goal& goal) const;
+  void end_errand(Outcome outcome);
 
   boost::asio::io_context& events_;
-  VirtualModule& module_;
+  VirtualModule* module_;
   std::vector<const RequestQueue*> requests_;
-  Options options_;
+  std::optional<Microseconds> duration_;
   WallClock clock_;
   Pace pace_;
+  Watcher* watcher_ = nullptr;
+  std::optional<Errand> errand_;
+  bool paused_ = false;
   std::function<void()> after_turn_;
   Microseconds end_ = never;
   WallTime last_turn_{};

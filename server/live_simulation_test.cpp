@@ -165,6 +165,157 @@ TEST_F(LiveSimulationTest, EndsAfterItsDurationOfSimulatedTime) {
   EXPECT_TRUE(simulation.is_finished());
 }
 
+TEST_F(LiveSimulationTest, StandsStillAndAnswersNothingWhilePaused) {
+  LiveSimulation simulation = make({});
+  simulation.start();
+  simulation.pause();
+  wall += 5s;
+  line.send(encode(Request{1, {static_cast<std::uint8_t>(Opcode::gap), 1, 0, 0}}));
+  simulation.serve(now());
+  simulation.advance(now());
+  EXPECT_EQ(0u, module.now());
+  EXPECT_TRUE(line.received().empty());
+  EXPECT_EQ(WallTime::max(), simulation.next_turn());
+
+  simulation.resume();
+  wall += 1s;
+  simulation.advance(now());
+  EXPECT_EQ(one_second, module.now());
+  EXPECT_EQ(datagram_size, line.received().size());
+}
+
+TEST_F(LiveSimulationTest, ChangesItsSpeedFromNowOn) {
+  LiveSimulation simulation = make({.speed = 1});
+  simulation.start();
+  rotate(simulation);
+  wall += 1s;
+  simulation.advance(now());
+  simulation.set_speed(10);
+  EXPECT_EQ(10, simulation.speed());
+  wall += 1s;
+  simulation.advance(now());
+  EXPECT_EQ(11 * one_second, module.now());
+}
+
+TEST_F(LiveSimulationTest, RunsToAGoalFlatOutAndIsPausedThen) {
+  LiveSimulation simulation = make({});
+  clock_cost = 100us;
+  simulation.start();
+  rotate(simulation);
+  std::optional<LiveSimulation::Outcome> outcome;
+  simulation.run_to({.time = 100 * one_second}, 1h, [&](LiveSimulation::Outcome how) { outcome = how; });
+  EXPECT_FALSE(outcome) << "the event loop has to be looked at in between";
+  while (!outcome) simulation.advance(now());
+  EXPECT_EQ(LiveSimulation::Outcome::reached, outcome);
+  EXPECT_EQ(100 * one_second, module.now());
+  EXPECT_TRUE(simulation.is_paused());
+  EXPECT_FALSE(simulation.is_running_to_goal());
+}
+
+TEST_F(LiveSimulationTest, AnswersRequestsOnTheWayToAGoal) {
+  LiveSimulation simulation = make({});
+  simulation.start();
+  simulation.pause();
+  line.send(encode(Request{1, {static_cast<std::uint8_t>(Opcode::gap), 1, 0, 0}}));
+  int done = 0;
+  simulation.run_to({.time = 1000}, 1h, [&](LiveSimulation::Outcome) { ++done; });
+  EXPECT_EQ(1, done);
+  EXPECT_EQ(datagram_size, line.received().size());
+  EXPECT_EQ(1000u, module.now());
+}
+
+TEST_F(LiveSimulationTest, GivesUpAGoalThatTakesTooLong) {
+  LiveSimulation simulation = make({});
+  clock_cost = 100us;
+  simulation.start();
+  rotate(simulation);
+  std::optional<LiveSimulation::Outcome> outcome;
+  const WallTime begin = wall;
+  simulation.run_to({.time = never - 1}, 50ms, [&](LiveSimulation::Outcome how) { outcome = how; });
+  while (!outcome) simulation.advance(now());
+  EXPECT_EQ(LiveSimulation::Outcome::out_of_time, outcome);
+  EXPECT_LE(wall - begin, 50ms + 2 * LiveSimulation::longest_slice);
+  EXPECT_TRUE(simulation.is_paused());
+}
+
+TEST_F(LiveSimulationTest, GivesUpAGoalWhenSomebodyPauses) {
+  LiveSimulation simulation = make({});
+  clock_cost = 100us;
+  simulation.start();
+  rotate(simulation);
+  std::optional<LiveSimulation::Outcome> outcome;
+  simulation.run_to({.time = never - 1}, 1h, [&](LiveSimulation::Outcome how) { outcome = how; });
+  simulation.pause();
+  EXPECT_EQ(LiveSimulation::Outcome::given_up, outcome);
+}
+
+TEST_F(LiveSimulationTest, TakesAsManyTurnsAsItIsTold) {
+  LiveSimulation simulation = make({});
+  simulation.start();
+  rotate(simulation);
+  for (const std::uint64_t turns : {1U, 1U, 5U, 100U}) {
+    const std::uint64_t goal = module.turns() + turns;
+    std::optional<LiveSimulation::Outcome> outcome;
+    simulation.run_to({.turns = goal}, 1h, [&](LiveSimulation::Outcome how) { outcome = how; });
+    EXPECT_EQ(LiveSimulation::Outcome::reached, outcome);
+    EXPECT_EQ(goal, module.turns());
+  }
+}
+
+TEST_F(LiveSimulationTest, SaysThatThereAreNoMoreTurnsToTake) {
+  LiveSimulation simulation = make({});
+  simulation.start();
+  settle(simulation);
+  const Microseconds before = module.now();
+  std::optional<LiveSimulation::Outcome> outcome;
+  simulation.run_to({.turns = module.turns() + 1}, 1h, [&](LiveSimulation::Outcome how) { outcome = how; });
+  EXPECT_EQ(LiveSimulation::Outcome::nothing_to_do, outcome);
+  EXPECT_EQ(before, module.now());
+}
+
+struct NotingWatcher final : Watcher {
+  explicit NotingWatcher(const VirtualModule& watched) : module(watched) {}
+  Microseconds next_look() const override { return next; }
+  void look() override {
+    looks.push_back(module.now());
+    next += 777;
+  }
+  const VirtualModule& module;
+  Microseconds next = 777;
+  std::vector<Microseconds> looks;
+};
+
+TEST_F(LiveSimulationTest, LetsAWatcherLookAtItsTimesAtAnySpeed) {
+  for (const double speed : {1.0, 100.0, Pace::maximum}) {
+    VirtualModule watched{pd1161, {}};
+    NotingWatcher watcher(watched);
+    LiveSimulation simulation{events, watched, {}, {.speed = speed, .duration = 50'000}, [this] { return now(); }};
+    simulation.set_watcher(&watcher);
+    simulation.start();
+    while (!simulation.is_finished()) {
+      ASSERT_NE(WallTime::max(), simulation.next_turn());
+      wall = std::max(wall, simulation.next_turn());
+      simulation.advance(now());
+    }
+    std::vector<Microseconds> expected;
+    for (Microseconds time = 777; time <= 50'000; time += 777) expected.push_back(time);
+    EXPECT_EQ(expected, watcher.looks) << speed;
+  }
+}
+
+TEST_F(LiveSimulationTest, RunsAnotherModuleFromWhereThatIs) {
+  LiveSimulation simulation = make({});
+  simulation.start();
+  wall += 1s;
+  simulation.advance(now());
+  VirtualModule other{pd1161, {}};
+  simulation.carry(other);
+  wall += 1s;
+  simulation.advance(now());
+  EXPECT_EQ(one_second, module.now());
+  EXPECT_EQ(one_second, other.now());
+}
+
 TEST_F(LiveSimulationTest, EndsWhenItIsStopped) {
   LiveSimulation simulation = make({});
   int turns = 0;

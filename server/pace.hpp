@@ -22,6 +22,7 @@ class Pace {
   /// @param speed more than 0, or `maximum`
   explicit Pace(double speed) : speed_(speed) {}
 
+  double speed() const { return speed_; }
   bool is_maximum() const { return speed_ == maximum; }
 
   /// From now on both times run from here.
