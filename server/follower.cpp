@@ -16,27 +16,47 @@ constexpr std::chrono::milliseconds greatest_lag{50};
 
 void Follower::start(std::chrono::microseconds ago) {
   last_turn_ = clock_() - ago;
-  pace_.anchor(last_turn_, simulated_.now());
-  if (options_.duration) end_ = simulated_.now() + *options_.duration;
+  pace_.anchor(last_turn_, simulated_->now());
+  if (options_.duration) end_ = simulated_->now() + *options_.duration;
+}
+
+void Follower::follow_from_here() {
+  last_turn_ = clock_();
+  pace_.anchor(last_turn_, simulated_->now());
+}
+
+void Follower::set_speed(double speed) {
+  pace_ = Pace(speed);
+  pace_.anchor(clock_(), simulated_->now());
+}
+
+void Follower::carry(Simulated& simulated) {
+  simulated_ = &simulated;
+  pace_.anchor(clock_(), simulated_->now());
 }
 
 bool Follower::has_nothing_to_simulate() const {
-  return pace_.is_maximum() && end_ == never && simulated_.next_turn() == never;
+  return pace_.is_maximum() && end_ == never && simulated_->next_turn() == never;
+}
+
+void Follower::take_step(Microseconds goal) {
+  // Up to its next turn nothing needs to be looked at.
+  const Microseconds step = std::max(simulated_->now() + simulation_step, simulated_->next_turn());
+  simulated_->advance_to(std::min({goal, step, std::max(next_look(), simulated_->now() + 1)}));
+  if (next_look() <= simulated_->now()) watcher_->look();
 }
 
 void Follower::advance(WallTime now) {
   last_turn_ = now;
   const Microseconds goal = std::min(pace_.simulated_at(now), end_);
-  while (simulated_.now() < goal && !has_nothing_to_simulate()) {
-    // Up to its next turn nothing needs to be looked at.
-    const Microseconds step = std::max(simulated_.now() + simulation_step, simulated_.next_turn());
-    simulated_.advance_to(std::min(goal, step));
-    if (simulated_.now() < goal && clock_() - now >= options_.slice) break;
+  while (simulated_->now() < goal && !has_nothing_to_simulate()) {
+    take_step(goal);
+    if (simulated_->now() < goal && clock_() - now >= options_.slice) break;
   }
   serve_ports();
-  if (simulated_.now() >= goal || pace_.is_maximum()) return;
+  if (simulated_->now() >= goal || pace_.is_maximum()) return;
   const WallTime after = clock_();
-  if (after - pace_.wall_at(simulated_.now()) > greatest_lag) pace_.anchor(after, simulated_.now());
+  if (after - pace_.wall_at(simulated_->now()) > greatest_lag) pace_.anchor(after, simulated_->now());
 }
 
 void Follower::serve(WallTime now) {
@@ -55,8 +75,8 @@ std::size_t Follower::waiting_requests() const {
 }
 
 void Follower::take_turn() {
-  simulated_.wake();
-  simulated_.advance_to(simulated_.now());
+  simulated_->wake();
+  simulated_->advance_to(simulated_->now());
 }
 
 void Follower::serve_ports() {
@@ -72,7 +92,7 @@ void Follower::serve_ports() {
     before = left;
   }
   // After a request the firmware wants another turn, in case there are more. Given at once, that turn tells when it
-  // really needs one.
+  // really needs one, and a module that only waits for commands needs no timer.
   if (before == 0) take_turn();
 }
 
@@ -80,7 +100,7 @@ WallTime Follower::next_turn() const {
   // The firmware is busy, with its EEPROM for one: it is asked again.
   if (waiting_requests() > 0) return last_turn_ + options_.turn;
   if (has_nothing_to_simulate()) return WallTime::max();
-  const WallTime next = pace_.wall_at(std::min(simulated_.next_turn(), end_));
+  const WallTime next = pace_.wall_at(std::min({simulated_->next_turn(), end_, next_look()}));
   if (pace_.is_maximum() || next == WallTime::max()) return next;
   return std::max(next, last_turn_ + options_.turn);
 }

@@ -12,16 +12,16 @@ namespace opentmcl::server {
 
 namespace {
 
-/// Simulated time between two looks at the wall clock.
-constexpr Microseconds simulation_step = 10 * one_millisecond;
-
-/// A simulation that is slower than its speed asks for goes on from where it is, instead of hurrying after lost time
-/// for ever.
-constexpr std::chrono::milliseconds greatest_lag{50};
-
 /// Most hosts send the next request as soon as they have the reply. To be woken takes longer than all the rest of an
 /// answer, so the event loop is looked at this often, some 50 us, before it sleeps (docs/performance.md).
 constexpr int looks_after_a_request = 64;
+
+Follower::Options follower_options(const LiveSimulation::Options& options) {
+  return {.speed = options.speed,
+          .duration = options.duration,
+          .turn = LiveSimulation::shortest_turn,
+          .slice = LiveSimulation::longest_slice};
+}
 
 }  // namespace
 
@@ -29,16 +29,8 @@ LiveSimulation::LiveSimulation(boost::asio::io_context& events, VirtualModule& m
                                std::vector<const RequestQueue*> requests, Options options, WallClock clock)
     : events_(events),
       module_(&module),
-      requests_(std::move(requests)),
-      duration_(options.duration),
       clock_(std::move(clock)),
-      pace_(options.speed) {}
-
-void LiveSimulation::start() {
-  last_turn_ = clock_();
-  pace_.anchor(last_turn_, module_->now());
-  if (duration_) end_ = module_->now() + *duration_;
-}
+      follower_(module, std::move(requests), follower_options(options), clock_) {}
 
 void LiveSimulation::run() {
   const auto keep_running = boost::asio::make_work_guard(events_);
@@ -69,41 +61,20 @@ bool LiveSimulation::handles_event_soon() {
   return false;
 }
 
-bool LiveSimulation::has_nothing_to_simulate() const {
-  return pace_.is_maximum() && end_ == never && module_->next_turn() == never;
-}
-
-void LiveSimulation::take_step(Microseconds goal) {
-  // Up to the firmware's next turn nothing needs to be looked at.
-  const Microseconds step = std::max(module_->now() + simulation_step, module_->next_turn());
-  module_->advance_to(std::min({goal, step, std::max(next_look(), module_->now() + 1)}));
-  if (next_look() <= module_->now()) watcher_->look();
-}
-
 void LiveSimulation::advance(WallTime now) {
-  last_turn_ = now;
   if (errand_) return run_errand(now);
-  if (paused_) return;
-  const Microseconds goal = std::min(pace_.simulated_at(now), end_);
-  while (module_->now() < goal && !has_nothing_to_simulate()) {
-    take_step(goal);
-    if (module_->now() < goal && clock_() - now >= longest_slice) break;
-  }
-  serve_ports();
-  if (module_->now() >= goal || pace_.is_maximum()) return;
-  const WallTime after = clock_();
-  if (after - pace_.wall_at(module_->now()) > greatest_lag) pace_.anchor(after, module_->now());
+  if (!paused_) follower_.advance(now);
 }
 
 void LiveSimulation::serve(WallTime now) {
   has_served_ = true;
-  if (paused_ && !errand_) return;
-  // At maximum speed the present is where the simulation is.
-  if (pace_.is_maximum()) {
-    serve_ports();
-  } else {
-    advance(now);
-  }
+  if (errand_) return run_errand(now);
+  if (!paused_) follower_.serve(now);
+}
+
+WallTime LiveSimulation::next_turn() const {
+  if (errand_) return errand_->last_turn;
+  return paused_ ? WallTime::max() : follower_.next_turn();
 }
 
 // ---- Control of time
@@ -116,29 +87,25 @@ void LiveSimulation::pause() {
 void LiveSimulation::resume() {
   end_errand(Outcome::given_up);
   paused_ = false;
-  last_turn_ = clock_();
-  pace_.anchor(last_turn_, module_->now());
-}
-
-void LiveSimulation::set_speed(double speed) {
-  pace_ = Pace(speed);
-  pace_.anchor(clock_(), module_->now());
+  follower_.follow_from_here();
+  follower_.serve_ports();
 }
 
 void LiveSimulation::carry(VirtualModule& module) {
   end_errand(Outcome::given_up);
   module_ = &module;
-  pace_.anchor(clock_(), module_->now());
+  follower_.carry(module);
 }
 
 void LiveSimulation::run_to(Goal goal, WallTime::duration limit, std::function<void(Outcome)> done) {
-  last_turn_ = clock_();
+  const WallTime now = clock_();
   paused_ = true;
-  errand_ = Errand{goal, last_turn_ + limit, std::move(done)};
-  run_errand(last_turn_);
+  errand_ = Errand{goal, now, now + limit, std::move(done)};
+  run_errand(now);
 }
 
 void LiveSimulation::run_errand(WallTime now) {
+  errand_->last_turn = now;
   const Goal goal = errand_->goal;
   std::optional<Outcome> outcome = outcome_of(goal);
   while (!outcome) {
@@ -153,22 +120,23 @@ void LiveSimulation::run_errand(WallTime now) {
 
 void LiveSimulation::take_step_towards(const Goal& goal) {
   const bool counts_turns = goal.turns != Goal{}.turns;
-  const std::size_t waiting = waiting_requests();
+  const std::size_t waiting = follower_.waiting_requests();
   if (counts_turns && waiting > 0) {
-    take_turn();
-    if (waiting_requests() < waiting) return;
+    follower_.take_turn();
+    if (follower_.waiting_requests() < waiting) return;
   }
-  Microseconds end = std::min(goal.time, end_);
+  Microseconds end = std::min(goal.time, follower_.end());
   if (counts_turns) end = std::min(end, module_->next_turn());
   // The firmware is busy, with its EEPROM for one: it is asked again.
   if (waiting > 0) end = std::min(end, module_->now() + one_millisecond);
-  take_step(end);
-  if (!counts_turns) serve_ports();
+  follower_.take_step(end);
+  if (!counts_turns) follower_.serve_ports();
 }
 
 std::optional<LiveSimulation::Outcome> LiveSimulation::outcome_of(const Goal& goal) const {
-  if (module_->now() >= std::min(goal.time, end_) || module_->turns() >= goal.turns) return Outcome::reached;
-  if (goal.time == never && module_->next_turn() == never && waiting_requests() == 0) return Outcome::nothing_to_do;
+  if (module_->now() >= std::min(goal.time, follower_.end()) || module_->turns() >= goal.turns) return Outcome::reached;
+  if (goal.time == never && module_->next_turn() == never && follower_.waiting_requests() == 0)
+    return Outcome::nothing_to_do;
   return std::nullopt;
 }
 
@@ -177,45 +145,6 @@ void LiveSimulation::end_errand(Outcome outcome) {
   const std::function<void(Outcome)> done = std::move(errand_->done);
   errand_.reset();
   done(outcome);
-}
-
-std::size_t LiveSimulation::waiting_requests() const {
-  std::size_t count = 0;
-  for (const RequestQueue* queue : requests_) count += queue->size();
-  return count;
-}
-
-void LiveSimulation::take_turn() {
-  module_->wake();
-  module_->advance_to(module_->now());
-}
-
-void LiveSimulation::serve_ports() {
-  // A turn that takes no request may still prepare for the next one, as the first after power-on does.
-  constexpr int most_vain_turns = 2;
-  int vain_turns = 0;
-  std::size_t before = waiting_requests();
-  if (before == 0) return;
-  while (before > 0 && vain_turns < most_vain_turns) {
-    take_turn();
-    const std::size_t left = waiting_requests();
-    vain_turns = left == before ? vain_turns + 1 : 0;
-    before = left;
-  }
-  // After a request the firmware wants another turn, in case there are more. Given at once, that turn tells when it
-  // really needs one, and a module that only waits for commands needs no timer.
-  if (before == 0) take_turn();
-}
-
-WallTime LiveSimulation::next_turn() const {
-  if (errand_) return last_turn_;
-  if (paused_) return WallTime::max();
-  // The firmware is busy, with its EEPROM for one: it is asked again.
-  if (waiting_requests() > 0) return last_turn_ + shortest_turn;
-  if (has_nothing_to_simulate()) return WallTime::max();
-  const WallTime next = pace_.wall_at(std::min({module_->next_turn(), end_, next_look()}));
-  if (pace_.is_maximum() || next == WallTime::max()) return next;
-  return std::max(next, last_turn_ + shortest_turn);
 }
 
 }  // namespace opentmcl::server

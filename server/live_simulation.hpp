@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "boards/twin/virtual_module.hpp"
+#include "server/follower.hpp"
 #include "server/pace.hpp"
 #include "server/request_queue.hpp"
 
@@ -15,18 +16,6 @@ class io_context;
 }
 
 namespace opentmcl::server {
-
-/// Looks at a module at certain times of its own, whatever the speed.
-class Watcher {
- public:
-  /// `never` when it has nothing to look for.
-  virtual Microseconds next_look() const = 0;
-  /// The module has come to that time. Must not change anything.
-  virtual void look() = 0;
-
- protected:
-  ~Watcher() = default;
-};
 
 /// Runs a virtual module for hosts that live in real time: in one thread, asleep while nothing is to be done.
 ///
@@ -63,8 +52,8 @@ class LiveSimulation {
   /// Goes on at speed().
   void resume();
   /// @param speed more than 0, or Pace::maximum
-  void set_speed(double speed);
-  double speed() const { return pace_.speed(); }
+  void set_speed(double speed) { follower_.set_speed(speed); }
+  double speed() const { return follower_.speed(); }
 
   /// Where a run flat out ends.
   struct Goal {
@@ -87,7 +76,7 @@ class LiveSimulation {
   void carry(VirtualModule& module);
 
   /// nullptr: nobody looks; else it must outlive this.
-  void set_watcher(Watcher* watcher) { watcher_ = watcher; }
+  void set_watcher(Watcher* watcher) { follower_.set_watcher(watcher); }
 
   /// Called after each turn of the loop in which simulated time or requests may have changed the module.
   void after_turn(std::function<void()> callback) { after_turn_ = std::move(callback); }
@@ -95,33 +84,27 @@ class LiveSimulation {
   // ---- The parts of run(), for callers with an event loop of their own
 
   /// Simulated time and the duration begin now.
-  void start();
+  void start() { follower_.start(); }
   /// A port has new requests: brings the module up to the present and lets it answer.
   /// @param now the wall clock's time
   void serve(WallTime now);
   /// Brings the module up to the present, as far as one slice gets, and lets it answer.
   /// @param now the wall clock's time
   void advance(WallTime now);
-  bool is_finished() const { return module_->now() >= end_; }
+  bool is_finished() const { return follower_.is_finished(); }
   /// When advance() is next needed; WallTime::max() when only an event can change anything.
   WallTime next_turn() const;
 
  private:
   struct Errand {
     Goal goal;
+    WallTime last_turn;
     WallTime give_up;
     std::function<void(Outcome)> done;
   };
 
   /// Handles an event that comes shortly after a request. @return whether one came
   bool handles_event_soon();
-  bool has_nothing_to_simulate() const;
-  std::size_t waiting_requests() const;
-  void take_turn();
-  void serve_ports();
-  /// Lets time pass, but not beyond `goal` nor beyond one step.
-  void take_step(Microseconds goal);
-  Microseconds next_look() const { return watcher_ == nullptr ? never : watcher_->next_look(); }
   void run_errand(WallTime now);
   void take_step_towards(const Goal& goal);
   std::optional<Outcome> outcome_of(const Goal& goal) const;
@@ -129,16 +112,11 @@ class LiveSimulation {
 
   boost::asio::io_context& events_;
   VirtualModule* module_;
-  std::vector<const RequestQueue*> requests_;
-  std::optional<Microseconds> duration_;
   WallClock clock_;
-  Pace pace_;
-  Watcher* watcher_ = nullptr;
+  Follower follower_;
   std::optional<Errand> errand_;
   bool paused_ = false;
   std::function<void()> after_turn_;
-  Microseconds end_ = never;
-  WallTime last_turn_{};
   bool has_served_ = false;  // since the event loop last slept
   bool stopped_ = false;
 };

@@ -178,10 +178,11 @@ TEST_F(LiveSimulationTest, StandsStillAndAnswersNothingWhilePaused) {
   EXPECT_EQ(WallTime::max(), simulation.next_turn());
 
   simulation.resume();
+  EXPECT_EQ(0u, module.now());
+  EXPECT_EQ(datagram_size, line.received().size());
   wall += 1s;
   simulation.advance(now());
   EXPECT_EQ(one_second, module.now());
-  EXPECT_EQ(datagram_size, line.received().size());
 }
 
 TEST_F(LiveSimulationTest, ChangesItsSpeedFromNowOn) {
