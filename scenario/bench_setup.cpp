@@ -1,8 +1,23 @@
 #include "scenario/bench_setup.hpp"
 
+#include <variant>
+
 #include "boards/twin/module_wiring.hpp"
+#include "scenario/section.hpp"
 
 namespace opentmcl::scenario {
+
+std::string_view name_of(const twin::MachineDimensions& machine) {
+  std::string_view name;
+  for_each_machine_kind([&](const MachineKind& kind, auto, auto dimensions) {
+    if (std::holds_alternative<decltype(dimensions)>(machine)) name = kind.name;
+  });
+  return name;
+}
+
+std::string_view name_of(const std::optional<twin::MotorData>& motor) {
+  return motor ? motor->name : ideal_motor;
+}
 
 VirtualModule::Options BenchSetup::board() const {
   VirtualModule::Options options;

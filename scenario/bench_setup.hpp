@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "boards/twin/virtual_module.hpp"
@@ -15,6 +16,11 @@ struct Assignment {
   const twin::Quantity* quantity;
   double value;  ///< in its unit, and one that it can have
 };
+
+/// As `kind` in [machine] has it.
+std::string_view name_of(const twin::MachineDimensions& machine);
+/// As `name` in [motor] has it.
+std::string_view name_of(const std::optional<twin::MotorData>& motor);
 
 /// Scenarios and farms describe it in the same words (docs/scenarios.md).
 struct BenchSetup {

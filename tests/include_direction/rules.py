@@ -80,6 +80,7 @@ RULES = (
         STANDARD | {"toml++/toml.h", "nlohmann/json.hpp"},
     ),
     Rule("client", ("firmware/spec", "firmware/wire"), ANY_SYSTEM_HEADER),
+    # A session that is logged has its scenario in the log; recordings are started over the control interface.
     Rule(
         "server",
         ("client", "lang", "scenario", "boards/twin", "twin", "firmware/hal", "firmware/spec", "firmware/wire"),
