@@ -30,7 +30,14 @@ Result<void> KeptEeprom::load(VirtualModule& module) {
   return {};
 }
 
-Result<void> KeptEeprom::save(VirtualModule& module) {
+Result<EepromFile::Image> KeptEeprom::load(const EepromFile::Image& blank) {
+  twin::Eeprom eeprom;
+  eeprom.load(blank);
+  if (const auto error = file_.load(eeprom)) return as_error(*error);
+  return EepromFile::Image(eeprom.image());
+}
+
+Result<void> KeptEeprom::save(const VirtualModule& module) {
   if (const auto error = file_.save(module.world().eeprom())) return as_error(*error);
   return {};
 }

@@ -20,8 +20,13 @@ class KeptEeprom {
 
   /// Before the module's first turn. Errors: bad_file, input_output.
   client::Result<void> load(VirtualModule& module);
+  /// What a module starts with that is still to be made; a file that does not exist is made from `blank`. Errors:
+  /// bad_file, input_output.
+  client::Result<EepromFile::Image> load(const EepromFile::Image& blank);
   /// Writes the file if the module has written to its EEPROM. Error: input_output.
-  client::Result<void> save(VirtualModule& module);
+  client::Result<void> save(const VirtualModule& module);
+  /// The module is another one from now on.
+  void note_exchange() { file_.note_exchange(); }
   /// Lets the module finish what it has been told to store, as a supply that fades slowly does, and saves it.
   client::Result<void> finish(VirtualModule& module);
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/tmcl/bench_session.hpp"
 #include "apps/tmcl/commands.hpp"
 #include "apps/tmcl/context.hpp"
+#include "apps/tmcl/scenario_source.hpp"
 #include "apps/tmcl/source_program.hpp"
 #include "scenario/schema.hpp"
 
@@ -19,12 +19,13 @@ namespace {
 
 /// Also assembles the program.
 client::Result<void> check_scenario(const std::string& path) {
-  const client::Result<scenario::Scenario> read = scenario_from_file(path);
-  if (!read) return read.error();
-  if (read->program.empty()) return {};
+  const client::Result<ScenarioSource> source = scenario_from_file(path);
+  if (!source) return source.error();
+  const std::string program = program_path(source->scenario, path);
+  if (program.empty()) return {};
   lang::AssemblerOptions assembler;
-  assembler.module = read->module;
-  const client::Result<lang::AssemblyResult> assembled = assemble_file(read->program, assembler);
+  assembler.module = source->scenario.module;
+  const client::Result<lang::AssemblyResult> assembled = assemble_file(program, assembler);
   if (!assembled) return assembled.error();
   return {};
 }

@@ -9,77 +9,38 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "apps/tmcl/bench_session.hpp"
 #include "apps/tmcl/commands.hpp"
 #include "apps/tmcl/context.hpp"
 #include "apps/tmcl/motion_state.hpp"
-#include "apps/tmcl/quantity.hpp"
-#include "apps/tmcl/sim_endpoints.hpp"
-#include "apps/tmcl/source_program.hpp"
+#include "apps/tmcl/scenario_source.hpp"
+#include "apps/tmcl/sim_introduction.hpp"
+#include "apps/tmcl/sim_plan.hpp"
 #include "apps/tmcl/status_line.hpp"
-#include "boards/twin/virtual_module.hpp"
+#include "apps/tmcl/trace_file.hpp"
 #include "scenario/section.hpp"
+#include "server/control.hpp"
+#include "server/control_server.hpp"
 #include "server/kept_eeprom.hpp"
 #include "server/live_simulation.hpp"
 #include "server/module_setup.hpp"
+#include "server/session.hpp"
+#include "server/signal_recording.hpp"
 
 namespace opentmcl::app {
 
 namespace asio = boost::asio;
+using client::Error;
+using client::ErrorKind;
 using client::Result;
+using scenario::Report;
+using server::Session;
+using server::SessionSetup;
+using server::SignalRecording;
 
 namespace {
 
-struct SimOptions {
-  std::string module = pd1161.argument;
-  SimEndpoints::Options endpoints;
-  std::string speed = "1";
-  std::string duration;
-  std::string eeprom;
-  std::string program;
-  std::string machine = "stage";
-  std::string motor;
-  BenchSession::Options bench;
-  bool no_start = false;
-  bool quiet = false;
-};
-
-void introduce_as_json(const ModuleDescription& module, const SimEndpoints& endpoints) {
-  fmt::print("{}\n", nlohmann::ordered_json{{"module", module.name},
-                                            {"pty", endpoints.pty_path()},
-                                            {"link", endpoints.link_path()},
-                                            {"port_kind", name_of(endpoints.port_kind())},
-                                            {"tcp", endpoints.tcp_url()},
-                                            {"slcan", endpoints.slcan_path()},
-                                            {"slcan_link", endpoints.slcan_link_path()},
-                                            {"can_udp", endpoints.can_udp_url()},
-                                            {"can", endpoints.can_interface()}}
-                         .dump());
-}
-
-void introduce_as_text(const ModuleDescription& module, const SimEndpoints& endpoints) {
-  fmt::print("Virtual {}, firmware V{}.{:02}. Talk to it at\n", module.name, module.firmware_major,
-             module.firmware_minor);
-  fmt::print("  {}  (serial port as {}, a link to {})\n", endpoints.link_path(), name_of(endpoints.port_kind()),
-             endpoints.pty_path());
-  const auto name = [](const std::string& endpoint, const std::string& remark) {
-    if (!endpoint.empty()) fmt::print("  {}{}\n", endpoint, remark);
-  };
-  name(endpoints.tcp_url(), "");
-  name(endpoints.slcan_link_path(), fmt::format("  (CAN over SLCAN, a link to {})", endpoints.slcan_path()));
-  name(endpoints.can_udp_url(), "  (CAN over UDP multicast as python-can does it)");
-  name(endpoints.can_interface(), "  (CAN interface)");
-  fmt::print("Ctrl-C ends it.\n");
-}
-
-void introduce(const Context& context, const ModuleDescription& module, const SimEndpoints& endpoints) {
-  if (context.json) {
-    introduce_as_json(module, endpoints);
-  } else {
-    introduce_as_text(module, endpoints);
-  }
-  std::fflush(stdout);
-}
+/// Said in place of a path.
+constexpr const char* no_control = "none";
 
 std::vector<std::string> machine_kinds() {
   std::vector<std::string> names;
@@ -103,15 +64,16 @@ std::string describe_machine(const twin::World& world) {
 /// Shows what the module does, now and from then on.
 class LiveDisplay {
  public:
-  LiveDisplay(asio::io_context& events, server::LiveSimulation& simulation, VirtualModule& module)
-      : timer_(events), simulation_(simulation), module_(module) {
+  LiveDisplay(asio::io_context& events, server::LiveSimulation& simulation, Session& session)
+      : timer_(events), simulation_(simulation), session_(session) {
     refresh();
   }
 
  private:
   void refresh() {
     simulation_.serve(std::chrono::steady_clock::now());
-    status_.show(describe(motion_state_of(module_)) + describe_machine(module_.world()));
+    VirtualModule& module = session_.module();
+    status_.show(describe(motion_state_of(module)) + describe_machine(module.world()));
     timer_.expires_after(status_.period());
     timer_.async_wait([this](const boost::system::error_code& error) {
       if (!error) refresh();
@@ -120,53 +82,137 @@ class LiveDisplay {
 
   asio::steady_timer timer_;
   server::LiveSimulation& simulation_;
-  VirtualModule& module_;
+  Session& session_;
   StatusLine status_;
 };
 
-Result<void> run_sim(const Context& context, const SimOptions& options) {
-  BenchSession::Options bench_options = options.bench;
-  bench_options.json = context.json;
-  Result<std::unique_ptr<BenchSession>> opened_bench = BenchSession::open(bench_options);
-  if (!opened_bench) return opened_bench.error();
-  BenchSession& bench = **opened_bench;
-  scenario::Scenario& scenario = bench.scenario();
-  if (!bench.has_scenario()) {
-    const Result<const ModuleDescription*> found = named_module(options.module);
-    if (!found) return found.error();
-    scenario.module = *found;
-    scenario::for_each_machine_kind([&](const scenario::MachineKind& kind, auto, const auto& dimensions) {
-      if (kind.name == options.machine) scenario.machine = dimensions;
-    });
-    if (options.motor == scenario::ideal_motor) scenario.motor = std::nullopt;
-    if (const twin::MotorData* const motor = twin::find_motor(options.motor)) scenario.motor = *motor;
+/// Where the session is logged: to be replayed, and so that the control interface can save it.
+Session::MakeLog log_for(const SimOptions& options) {
+  using server::SessionLog;
+  if (!options.log.empty()) {
+    return [path = options.log](const SessionSetup& setup) { return SessionLog::create(path, setup); };
   }
-  const ModuleDescription& description = *scenario.module;
-  const Result<double> speed = parse_speed(options.speed);
-  if (!speed) return speed.error();
-  server::LiveSimulation::Options pace{*speed, std::nullopt};
-  if (!options.duration.empty()) {
-    const Result<Microseconds> duration = parse_duration(options.duration);
-    if (!duration) return duration.error();
-    pace.duration = *duration;
+  if (options.control == no_control || !options.replay.empty()) return {};
+  return [](const SessionSetup& setup) { return SessionLog::create_nameless(setup); };
+}
+
+/// What is written down of a session: what comes from outside, signals, everything that happens in the world.
+struct Records {
+  std::unique_ptr<SignalRecording> recording;  ///< nullptr: none
+  std::unique_ptr<TraceFile> trace;            ///< nullptr: none
+
+  static Result<Records> open(const SimOptions& options, const SimPlan& plan) {
+    Records records;
+    if (!plan.recording.file.empty()) {
+      const twin::World world(nullptr, plan.scenario.mounted(*plan.scenario.module));
+      Result<std::unique_ptr<SignalRecording>> recording = SignalRecording::create(plan.recording, world);
+      if (!recording) return recording.error();
+      records.recording = std::move(*recording);
+    }
+    if (!options.trace.empty()) {
+      Result<std::unique_ptr<TraceFile>> trace = TraceFile::create(options.trace);
+      if (!trace) return trace.error();
+      records.trace = std::move(*trace);
+    }
+    return records;
   }
-  if (pace.duration) scenario.duration = *pace.duration;
-  if (scenario.duration != 0) pace.duration = scenario.duration;
-  std::vector<Command> commands;
-  const std::string& program = options.program.empty() ? scenario.program : options.program;
-  if (!program.empty()) {
-    lang::AssemblerOptions assembler;
-    assembler.module = &description;
-    const Result<lang::AssemblyResult> assembled = assemble_file(program, assembler);
-    if (!assembled) return assembled.error();
-    commands = assembled->program->commands;
+
+  /// @param ended called when the scenario has come to its end
+  Session::Options session_options(const Context& context, const SimOptions& options,
+                                   std::function<void()> ended) const {
+    return {log_for(options), trace.get(), recording.get(),
+            [json = context.json, ended = std::move(ended)](const SessionSetup& setup, const Report& what) {
+              if (!setup.scenario.empty()) print_report(what, setup.scenario_name, json);
+              if (what.kind == Report::Kind::end) ended();
+            }};
   }
-  if (Result<void> prepared = bench.prepare_recording(); !prepared) return prepared;
+};
+
+/// A session at these doors, new or from a snapshot.
+Result<std::unique_ptr<Session>> open_session(const SimOptions& options, const SessionSetup& setup,
+                                              Session::Doors doors, const Session::Options& session_options) {
+  if (options.load.empty()) return Session::start(setup, std::move(doors), session_options);
+  Result<std::unique_ptr<Session>> session = Session::resume(options.load, std::move(doors), session_options);
+  if (session && !(*session)->setup().has_same_doors(setup)) {
+    return Error{
+        ErrorKind::usage,
+        options.load + " is of a module with other ports: --port-kind, --tcp, --wire and CAN have to be as they were",
+        {}};
+  }
+  return session;
+}
+
+/// Beside the link unless the user says where; nothing if that is not possible or not wanted.
+Result<std::optional<server::ControlServer>> listen_for_control(asio::io_context& events, const SimOptions& options,
+                                                                const std::string& link, server::Control& control) {
+  std::optional<server::ControlServer> server;
+  if (options.control == no_control) return server;
+  const bool is_usual = options.control.empty();
+  Result<server::ControlServer> listening =
+      server::ControlServer::listen(events, is_usual ? server::control_path_of(link) : options.control, control);
+  if (listening) {
+    server.emplace(std::move(*listening));
+  } else if (is_usual) {
+    fmt::print(stderr, "tmcl: no control interface: {}\n", listening.error().message);
+  } else {
+    return listening.error();
+  }
+  return server;
+}
+
+/// The first of two outcomes that is an error.
+Result<void> first_error(const Result<void>& first, const Result<void>& second) {
+  return first.ok() ? second : first;
+}
+
+Result<void> log_outcome(const SimOptions& options, const Session& session) {
+  const std::optional<Error> failure = session.log_failure();
+  return failure && !options.log.empty() ? Result<void>(*failure) : Result<void>();
+}
+
+Result<void> scenario_outcome(const Session& session) {
+  const std::size_t failures = session.failures();
+  if (failures == 0) return {};
+  return Error{
+      ErrorKind::refused,
+      fmt::format("{}: {} expectation{} failed", session.setup().scenario_name, failures, failures == 1 ? "" : "s"),
+      {}};
+}
+
+/// Ends the session and all that is written down of it; nothing of what happens afterwards is in it.
+Result<void> finish(const SimOptions& options, Session& session, const Records& records) {
+  const Result<void> recorded = session.finish();
+  const Result<void> traced = records.trace ? records.trace->finish() : Result<void>();
+  return first_error(first_error(recorded, traced),
+                     first_error(log_outcome(options, session), scenario_outcome(session)));
+}
+
+/// Does what a log says once more, as fast as it goes.
+Result<void> replay(const Context& context, const SimOptions& options, const Records& records) {
+  const Result<std::unique_ptr<Session>> session =
+      Session::resume(options.replay, {}, records.session_options(context, options, [] {}));
+  if (!session) return session.error();
+  const Result<void> finished = finish(options, **session, records);
+  const Microseconds time = (*session)->module().now();
+  if (context.json) {
+    fmt::print("{}\n", nlohmann::ordered_json{{"time", time}, {"same", true}}.dump());
+  } else {
+    fmt::print("Replayed {:.6f} s, the same as then.\n", static_cast<double>(time) / 1e6);
+  }
+  return finished;
+}
+
+Result<void> simulate(const Context& context, const SimOptions& options, SimPlan& plan, const Records& records) {
+  SessionSetup& setup = plan.setup;
+  const ModuleDescription& description = *setup.module;
   std::unique_ptr<server::KeptEeprom> eeprom;
   if (!options.eeprom.empty()) {
     Result<std::unique_ptr<server::KeptEeprom>> opened = server::KeptEeprom::open(options.eeprom, description);
     if (!opened) return opened.error();
     eeprom = std::move(*opened);
+    const Result<EepromFile::Image> image = eeprom->load(setup.eeprom);
+    if (!image) return image.error();
+    setup.eeprom = *image;
   }
 
   // This thread is the only one: nothing needs a lock.
@@ -175,53 +221,72 @@ Result<void> run_sim(const Context& context, const SimOptions& options) {
   Result<SimEndpoints> endpoints = SimEndpoints::open(events, options.endpoints, description,
                                                       [&simulation](server::WallTime now) { simulation->serve(now); });
   if (!endpoints) return endpoints.error();
-  server::MemoryLine line;
+  setup.ports.clear();
+  Session::Doors doors;
+  for (const hal::Port& port : endpoints->ports()) {
+    setup.ports.push_back({port.kind, options.wire});
+    doors.ports.push_back(port.bytes);
+  }
+  server::MemoryLine line;  // for the program
+  setup.ports.push_back({hal::PortKind::usb});
+  doors.ports.push_back(&line.port());
+  doors.can = endpoints->can_port();
+  setup.has_can = doors.can != nullptr;
+
+  // Who hears of the module finds it started, and on its CAN bus.
+  const auto stop = [&simulation] {
+    if (simulation) simulation->stop();
+  };
+  Result<std::unique_ptr<Session>> opened =
+      open_session(options, setup, std::move(doors), records.session_options(context, options, stop));
+  if (!opened) return opened.error();
+  Session& session = **opened;
+  if (!plan.program.empty()) {
+    if (Result<void> loaded = server::load_program(session.module(), line, plan.program, !options.no_start); !loaded)
+      return loaded;
+  }
+
   std::vector<const server::RequestQueue*> requests = endpoints->requests();
   requests.push_back(&line.port());
-  std::vector<hal::Port> ports = endpoints->ports();
-  ports.push_back({&line.port(), hal::PortKind::usb});
-
-  VirtualModule::Options board = scenario.board();
-  board.can = endpoints->can_port();
-  VirtualModule module(description, ports, board, bench.observer());
-  endpoints->connect(module);
-  bench.prepare(module);
-  if (eeprom) {
-    if (Result<void> loaded = eeprom->load(module); !loaded) return loaded;
-  }
-  // Who hears of the module finds it started, and on its CAN bus.
-  module.advance_to(module.now());
-  if (!commands.empty()) {
-    if (Result<void> loaded = server::load_program(module, line, commands, !options.no_start); !loaded) return loaded;
-  }
-
-  simulation.emplace(events, module, requests, pace);
+  server::LiveSimulation::Options pace{plan.speed, std::nullopt};
+  if (plan.duration != 0) pace.duration = plan.duration;
+  simulation.emplace(events, session.module(), requests, pace);
+  server::Control control(session, *simulation);
+  control.when_loaded([&eeprom] {
+    if (eeprom) eeprom->note_exchange();
+  });
+  const Result<std::optional<server::ControlServer>> control_server =
+      listen_for_control(events, options, endpoints->link_path(), control);
+  if (!control_server) return control_server.error();
   Result<void> outcome;
-  if (eeprom) {
-    simulation->after_turn([&] {
-      if (Result<void> saved = eeprom->save(module); !saved) {
-        outcome = saved;
-        simulation->stop();
-      }
-    });
-  }
+  simulation->after_turn([&] {
+    session.check_now_and_then();
+    outcome = log_outcome(options, session);
+    if (eeprom && outcome) outcome = eeprom->save(session.module());
+    if (!outcome) simulation->stop();
+  });
   asio::signal_set signals(events, SIGINT, SIGTERM, SIGHUP);
   signals.async_wait([&simulation](const boost::system::error_code& error, int) {
     if (!error) simulation->stop();
   });
-  introduce(context, description, *endpoints);
-  bench.start(module, [&simulation] { simulation->stop(); });
+  introduce(context, description, *endpoints, *control_server ? (*control_server)->path() : "");
+  if (!session.has_begun()) session.begin(plan.duration);
   simulation->start();
   std::optional<LiveDisplay> display;
-  if (!options.quiet) display.emplace(events, *simulation, module);
+  if (!options.quiet) display.emplace(events, *simulation, session);
   simulation->run();
   display.reset();
-  Result<void> finished = bench.finish(module);
-  if (!outcome) return outcome;
-  if (eeprom) {
-    if (Result<void> saved = eeprom->finish(module); !saved) return saved;
-  }
-  return finished;
+  const Result<void> finished = finish(options, session, records);
+  if (eeprom && outcome) outcome = eeprom->finish(session.module());
+  return first_error(outcome, finished);
+}
+
+Result<void> run_sim(const Context& context, const SimOptions& options) {
+  Result<SimPlan> plan = SimPlan::of(options);
+  if (!plan) return plan.error();
+  const Result<Records> records = Records::open(options, *plan);
+  if (!records) return records.error();
+  return options.replay.empty() ? simulate(context, options, *plan, *records) : replay(context, options, *records);
 }
 
 }  // namespace
@@ -244,7 +309,7 @@ void add_sim(CLI::App& app, Context& context) {
                    "what the serial port stands for: usb, rs485, or rs232 (pd1161)")
       ->capture_default_str();
   command
-      ->add_option("--wire", options->endpoints.wire,
+      ->add_option("--wire", options->wire,
                    "bit/s of the serial port and of TCP: bytes take their time; without it they take none")
       ->check(CLI::Range(300U, 1'000'000U));
   command->add_option("--slcan-link", options->endpoints.slcan_link,
@@ -254,8 +319,9 @@ void add_sim(CLI::App& app, Context& context) {
   command->add_option("--can", options->endpoints.can, "tmcm1110: CAN interface of Linux, as vcan0");
   command->add_option("--speed", options->speed, "times real time, or max")->capture_default_str();
   command->add_option("--duration", options->duration, "end after this much of the module's time: 5s, 500ms, 2min");
-  command->add_option("--eeprom", options->eeprom, "keep the EEPROM in this file; made if it does not exist");
-  command->add_option("--program", options->program, "load this TMCL program and start it");
+  CLI::Option* eeprom =
+      command->add_option("--eeprom", options->eeprom, "keep the EEPROM in this file; made if it does not exist");
+  CLI::Option* program = command->add_option("--program", options->program, "load this TMCL program and start it");
   CLI::Option* machine =
       command
           ->add_option("--machine", options->machine,
@@ -266,20 +332,42 @@ void add_sim(CLI::App& app, Context& context) {
   CLI::Option* motor =
       command->add_option("--motor", options->motor, "instead of the module's own; ideal: one that loses no step")
           ->check(CLI::IsMember(motor_names()));
-  command
-      ->add_option("--scenario", options->bench.scenario,
-                   "module, machine and what happens to them, from this file; the other options go before it")
-      ->excludes(module)
-      ->excludes(machine)
-      ->excludes(motor);
-  command->add_option("--record", options->bench.record, "write down signals: a file that ends in .vcd or .csv");
-  command->add_option("--signals", options->bench.signals, "names of them, with commas: position,stage")
-      ->delimiter(',');
-  command->add_option("--record-every", options->bench.record_every,
+  command->add_option("--control", options->control,
+                      "socket for tmcl sim ctl, or none; default: the link's path and .control");
+  CLI::Option* scenario =
+      command
+          ->add_option("--scenario", options->scenario,
+                       "module, machine and what happens to them, from this file; the other options go before it")
+          ->excludes(module)
+          ->excludes(machine)
+          ->excludes(motor);
+  command->add_option("--record", options->record, "write down signals: a file that ends in .vcd or .csv");
+  command->add_option("--signals", options->signals, "names of them, with commas: position,stage")->delimiter(',');
+  command->add_option("--record-every", options->record_every,
                       "how often signals are looked at that are not in the trace; default: 1ms");
+  command->add_option("--log", options->log, "write down all that comes from outside, to be replayed");
+  command->add_option("--trace", options->trace, "write down every signal of the world, as text");
+  command->add_option("--load", options->load, "go on from this snapshot of tmcl sim ctl save")
+      ->excludes(module)
+      ->excludes(eeprom)
+      ->excludes(program)
+      ->excludes(machine)
+      ->excludes(motor)
+      ->excludes(scenario);
+  command
+      ->add_option("--replay", options->replay, "do once more what this log says, check that it is the same, and end")
+      ->excludes(module)
+      ->excludes(eeprom)
+      ->excludes(program)
+      ->excludes(machine)
+      ->excludes(motor)
+      ->excludes(scenario);
   command->add_flag("--no-start", options->no_start, "do not start the program");
   command->add_flag("-q,--quiet", options->quiet, "no live line");
-  command->callback([&context, options] { context.finish(run_sim(context, *options)); });
+  add_sim_ctl(*command, context);
+  command->callback([&context, options, command] {
+    if (command->get_subcommands().empty()) context.finish(run_sim(context, *options));
+  });
 }
 
 }  // namespace opentmcl::app

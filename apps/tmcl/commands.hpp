@@ -11,6 +11,7 @@ struct Context;
 
 void add_sim(CLI::App& app, Context& context);
 void add_scenario(CLI::App& app, Context& context);
+void add_sim_ctl(CLI::App& sim, Context& context);  ///< below `sim`
 void add_farm(CLI::App& app, Context& context);
 void add_asm(CLI::App& app, Context& context);
 void add_dis(CLI::App& app, Context& context);

@@ -135,11 +135,6 @@ Result<SimEndpoints> SimEndpoints::open(boost::asio::io_context& events, const O
   Result<PtyLink> link = make_link(options.link, module, pty->path());
   if (!link) return link.error();
   SimEndpoints endpoints(std::move(*pty), std::move(*link), *port_kind, std::move(tcp));
-  if (options.wire != 0) {
-    for (const hal::Port& port : endpoints.ports()) {
-      endpoints.wires_.push_back(std::make_unique<PacedPort>(*port.bytes, port.kind, options.wire));
-    }
-  }
   if (wants_can(options)) {
     if (Result<void> opened = endpoints.open_can(events, options, requests_arrived); !opened) return opened.error();
   }
@@ -173,12 +168,7 @@ Result<void> SimEndpoints::open_can(boost::asio::io_context& events, const Optio
 std::vector<hal::Port> SimEndpoints::ports() {
   std::vector<hal::Port> ports{{&pty_.port(), port_kind_}};
   if (tcp_) ports.push_back({&tcp_->port(), hal::PortKind::usb});
-  for (std::size_t i = 0; i < wires_.size(); ++i) ports[i].bytes = wires_[i].get();
   return ports;
-}
-
-void SimEndpoints::connect(VirtualModule& module) {
-  for (const auto& wire : wires_) wire->connect(module);
 }
 
 std::vector<const server::RequestQueue*> SimEndpoints::requests() {

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "boards/twin/paced_port.hpp"
 #include "client/error.hpp"
 #include "firmware/hal/hal.hpp"
 #include "firmware/spec/modules.hpp"
@@ -32,7 +31,6 @@ class SimEndpoints {
     std::string slcan_link;  ///< of a second pseudo terminal, an SLCAN adapter; empty: none
     std::string can_udp;     ///< GROUP:PORT of a UDP multicast group; empty: none
     std::string can;         ///< SocketCAN interface; empty: none
-    std::uint32_t wire = 0;  ///< bit/s of the serial line and of TCP; 0: bytes take no time
   };
 
   /// @param requests_arrived called when one of the ports has new requests
@@ -42,8 +40,6 @@ class SimEndpoints {
 
   /// The serial ports of the module.
   std::vector<hal::Port> ports();
-  /// The module that has them. @pre called once, before time passes
-  void connect(VirtualModule& module);
   /// Its connector to CAN; nullptr when nothing is plugged in.
   hal::CanPort* can_port() { return can_bus_.get(); }
   /// What waits at any of them.
@@ -76,7 +72,6 @@ class SimEndpoints {
   std::optional<server::PtyLink> slcan_link_;
   std::optional<server::CanUdpEndpoint> can_udp_;
   std::optional<server::SocketCanEndpoint> socket_can_;
-  std::vector<std::unique_ptr<PacedPort>> wires_;  ///< between the serial ports and the module, if bytes take time
 };
 
 /// As the manuals print it: "RS485".

@@ -37,6 +37,9 @@ class EepromFile {
   /// time finds the old content or the new one. The file's permissions stay.
   std::optional<EepromFileError> save(const twin::Eeprom& eeprom);
 
+  /// The EEPROM is another one from now on: the next save() replaces the file.
+  void note_exchange() { saved_bytes_.reset(); }
+
   /// The whole content of a file.
   static std::string encode(const Image& image, const ModuleDescription& module);
 
@@ -48,7 +51,7 @@ class EepromFile {
 
   std::string path_;
   const ModuleDescription& module_;
-  std::uint64_t saved_bytes_ = 0;  // Eeprom::bytes_written() at the last load or save
+  std::optional<std::uint64_t> saved_bytes_;  // Eeprom::bytes_written() at the last load or save
 };
 
 }  // namespace opentmcl

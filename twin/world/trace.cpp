@@ -2,13 +2,18 @@
 
 namespace opentmcl::twin {
 
+std::string trace_line(Tick tick, std::string_view signal, std::int64_t value) {
+  std::string line = std::to_string(tick);
+  line += ' ';
+  line += signal;
+  line += ' ';
+  line += std::to_string(value);
+  line += '\n';
+  return line;
+}
+
 void TraceText::changed(Tick tick, std::string_view signal, std::int64_t value) {
-  text_ += std::to_string(tick);
-  text_ += ' ';
-  text_ += signal;
-  text_ += ' ';
-  text_ += std::to_string(value);
-  text_ += '\n';
+  text_ += trace_line(tick, signal, value);
 }
 
 }  // namespace opentmcl::twin

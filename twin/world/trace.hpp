@@ -18,7 +18,10 @@ class TraceObserver {
   ~TraceObserver() = default;
 };
 
-/// Writes a trace down as text, a line `tick signal value` for every change, so that two runs can be compared.
+/// A change as text: `tick signal value` and the line's end.
+std::string trace_line(Tick tick, std::string_view signal, std::int64_t value);
+
+/// Writes a trace down as text, a line for every change, so that two runs can be compared.
 class TraceText : public TraceObserver {
  public:
   void changed(Tick tick, std::string_view signal, std::int64_t value) override;
