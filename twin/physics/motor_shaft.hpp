@@ -167,7 +167,7 @@ class MotorShaft {
   Cruise observed_cruise(const Field& field, Tick span, const PhaseState& rotor) const;
   bool settled(const Field& field, const Cruise& cruise) const;
   /// Nothing where the closed form is not trusted.
-  std::optional<MovingBalance> moving_balance(const Field& field, double seconds, const TorqueTable& table) const;
+  std::optional<MovingBalance> moving_balance(const Field& field, double seconds, const TorqueTable& torques) const;
   std::optional<MovingBalance> remembered_balance(const Field& field, double seconds) const;
   bool keeps_its_balance(const Field& field) const { return field.acceleration == 0 && load_.spring == 0; }
   double natural_frequency(const Equilibrium& equilibrium) const;
