@@ -5,6 +5,7 @@
 #include <iterator>
 #include <vector>
 
+#include "scenario/condition.hpp"
 #include "server/control.hpp"
 
 namespace opentmcl::server {
@@ -112,7 +113,7 @@ std::optional<RpcError> find_named(ControlCall& call, std::vector<const Quantity
   for (const json& name : names->is_array() ? *names : json::array({*names})) {
     const auto text = name.get<std::string>();
     const Quantity* quantity = twin::find_quantity(text);
-    if (quantity == nullptr) return wrong("there is no quantity \"" + text + "\"; \"describe\" tells them all");
+    if (quantity == nullptr) return wrong(scenario::no_such_quantity(text));
     if (!quantity->exists_in(world)) return wrong(text + " does not exist on this machine");
     found.push_back(quantity);
   }
@@ -170,7 +171,7 @@ void unsubscribe(ControlCall& call) {
 std::optional<RpcError> read_values(ControlCall& call, std::vector<QuantitiesSet::Value>& values) {
   for (const auto& [name, given] : call.parameters.at("values").items()) {
     const Quantity* quantity = twin::find_quantity(name);
-    if (quantity == nullptr) return wrong("there is no quantity \"" + name + "\"; \"describe\" tells them all");
+    if (quantity == nullptr) return wrong(scenario::no_such_quantity(name));
     const double value = given.is_boolean() ? (given.get<bool>() ? 1 : 0) : given.get<double>();
     if (const auto refusal = twin::refusal(*quantity, call.control.world(), value)) return wrong(name + " " + *refusal);
     values.push_back({name, value});

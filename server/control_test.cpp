@@ -134,7 +134,7 @@ TEST_F(ControlTest, RefusesWhatMakesNoSense) {
     EXPECT_EQ(RpcError::invalid_params, refused.code) << message;
     EXPECT_THAT(refused.message, HasSubstr(message));
   };
-  expect("there is no quantity \"supply\"", "get", {{"names", "supply"}});
+  expect("there is no quantity 'supply_voltag': did you mean supply_voltage?", "get", {{"names", "supply_voltag"}});
   expect("names of get has to be a name or an array of names", "get", {{"names", {1}}});
   expect("get has no parameter \"name\"", "get", {{"name", "temperature"}});
   expect("pause has 0 parameters", "pause", json::array({1}));
@@ -142,7 +142,7 @@ TEST_F(ControlTest, RefusesWhatMakesNoSense) {
   expect("an object of names with numbers", "set", {{"values", {{"temperature", "hot"}}}});
   expect("nothing to set", "set", {{"values", json::object()}});
   expect("position can only be looked at", "set", {{"values", {{"position", 1}}}});
-  expect("there is no quantity \"nothing\"", "set", {{"values", {{"nothing", 1}}}});
+  expect("there is no quantity 'nothing'", "set", {{"values", {{"nothing", 1}}}});
   expect("either by or turns", "step", nullptr);
   expect("either by or turns", "step", {{"by", 1}, {"turns", 1}});
   expect("a whole number, not negative", "step", {{"by", -1}});

@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "scenario/condition.hpp"
+
 namespace opentmcl::server {
 
 using client::Error;
@@ -289,7 +291,7 @@ std::optional<Error> Session::Run::repeat(const SessionEvent& event) {
     std::optional<Error> operator()(const QuantitiesSet& set) {
       for (const auto& [name, value] : set.values) {
         const twin::Quantity* quantity = twin::find_quantity(name);
-        if (quantity == nullptr) return run.source_->error_here("there is no quantity \"" + name + "\"");
+        if (quantity == nullptr) return run.source_->error_here(scenario::no_such_quantity(name));
         if (const auto refusal = twin::refusal(*quantity, run.module_->world(), value)) {
           return run.source_->error_here(name + " " + *refusal);
         }

@@ -264,7 +264,7 @@ TEST_F(SessionTest, RefusesToSetWhatCannotBeSet) {
     folder.write("session.log", log.substr(0, log.find("0 end")) + line);
     return replay_error();
   };
-  EXPECT_THAT(error_with("0 set nothing=1\n"), HasSubstr("there is no quantity \"nothing\""));
+  EXPECT_THAT(error_with("0 set nothing=1\n"), HasSubstr("there is no quantity 'nothing'"));
   EXPECT_THAT(error_with("0 set supply_voltage=1000\n"), HasSubstr("supply_voltage goes from 0 to 60 V"));
   EXPECT_THAT(error_with("0 set position=1\n"), HasSubstr("position can only be looked at"));
 }

@@ -331,9 +331,10 @@ void add_sim_ctl(CLI::App& sim, Context& context) {
     return added;
   };
   const auto add_plain = [&](const char* name, const char* description, const char* method) {
-    add(name, description, [method](const Context& with, const CtlOptions& given) {
+    CLI::App* added = add(name, description, [method](const Context& with, const CtlOptions& given) {
       return ask(with, given, method, ordered_json::object());
     });
+    if (std::string_view(name) != method) added->alias(method);
   };
 
   add("describe", "all quantities with their units and ranges", describe);
