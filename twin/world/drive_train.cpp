@@ -200,6 +200,7 @@ void DriveTrain::report_steps(bool wanted) {
   reports_steps_ = wanted;
   // A span in which single steps are told for nothing does no harm; the next one begins without them.
   if (wanted) tmc429_->set_detail(StepDetail::edges);
+  next_report_ = wanted && motor_ ? next_multiple(report_period, now_) : never_tick;
 }
 
 FieldTracker::Drive DriveTrain::drive() const {

@@ -234,6 +234,16 @@ TEST(Spans, AreRecordedEveryTenMilliseconds) {
   EXPECT_EQ(world.motor()->now(), 5000 * millisecond);
 }
 
+TEST(Spans, AreRecordedFromTheMiddleOfOneOn) {
+  World world(nullptr, bench_machine());
+  turn_evenly(world);
+  world.advance_to(5015 * millisecond);
+  TraceText trace;
+  world.observe(&trace);
+  world.advance_to(5021 * millisecond);
+  EXPECT_NE(trace.text().find(std::to_string(5020 * millisecond) + " encoder "), std::string::npos);
+}
+
 /// Steps that come singly are in no field of the future.
 TEST(Spans, AreShortFromTheStartOfAMotionInFullSteps) {
   World world(nullptr, bench_machine());
