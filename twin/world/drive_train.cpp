@@ -119,8 +119,8 @@ void DriveTrain::run(Tick tick) {
   }
 }
 
-/// Brings the motor up to the present under the conditions with which the span began, and begins the next one.
-void DriveTrain::commit() {
+/// Brings the motor up to the present under the conditions with which the span began.
+void DriveTrain::end_span() {
   if (motor_ && now_ > field_.begun()) {
     motor_->advance_to(now_, field());
     tmc262_.set_load_measurement(motor_->stall_guard_measurement());
@@ -128,6 +128,10 @@ void DriveTrain::commit() {
   running_ = true;
   surroundings_.shaft_turned(now_);
   running_ = false;
+}
+
+void DriveTrain::commit() {
+  end_span();
   begin_span();
 }
 
@@ -234,7 +238,7 @@ void DriveTrain::after_change() {
 std::uint32_t DriveTrain::transfer_tmc429(std::uint32_t datagram) {
   if (!is_write(datagram)) return tmc429_->transfer(datagram);
   // The motion up to now is that of the registers before.
-  commit();
+  end_span();
   const std::uint32_t reply = tmc429_->transfer(datagram);
   begin_span();
   return reply;
@@ -263,7 +267,7 @@ void DriveTrain::set_switches(bool left, bool right) {
   right_switch_ = right;
   // From within a step or the end of a span, the next span has not begun.
   const bool is_from_outside = !running_;
-  if (is_from_outside) commit();
+  if (is_from_outside) end_span();
   tmc429_->set_left_switch(left);
   tmc429_->set_right_switch(right);
   if (is_from_outside) begin_span();
@@ -271,7 +275,7 @@ void DriveTrain::set_switches(bool left, bool right) {
 
 void DriveTrain::set_load(const Load& load) {
   if (load == load_) return;
-  commit();
+  end_span();
   load_ = load;
   if (motor_) motor_->set_load(load);
   begin_span();
@@ -306,7 +310,7 @@ void DriveTrain::set_temperature(std::int32_t celsius) {
 
 void DriveTrain::set_ambient_temperature(double celsius) {
   if (!motor_ || motor_->ambient() == celsius) return;
-  commit();
+  end_span();
   motor_->set_ambient(celsius);
   begin_span();
 }
@@ -321,7 +325,7 @@ void DriveTrain::set_load_measurement(std::int32_t value) {
 }
 
 void DriveTrain::pulse_step(bool direction) {
-  commit();
+  end_span();
   take_pulse(direction);
   begin_span();
 }
@@ -333,7 +337,7 @@ void DriveTrain::take_pulse(bool direction) {
 
 void DriveTrain::set_step_input_rate(double rate) {
   if (rate == step_input_.rate()) return;
-  commit();
+  end_span();
   step_input_.set_rate(rate, now_);
   begin_span();
 }

@@ -112,6 +112,7 @@ class DriveTrain final : private StepListener {
   void steps(const StepRun& run) override;
   void take_pulse(bool direction);
   void commit();
+  void end_span();
   void begin_span();
   Tick end_of_span();
   Tick end_of_ideal_span();
