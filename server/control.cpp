@@ -53,7 +53,7 @@ Control::Control(Session& session, LiveSimulation& simulation, WallClock clock)
 void Control::call(ControlClient& client, const std::string& name, const json& params, const RpcAnswer& answer) {
   const ControlMethod* method = find_control_method(name);
   if (method == nullptr) {
-    answer(RpcError{RpcError::method_not_found, "there is no method \"" + name + "\"; \"describe\" tells them all"});
+    answer(RpcError{RpcError::method_not_found, "there is no method \"" + name + R"("; "describe" tells them all)"});
     return;
   }
   json named;
@@ -69,7 +69,7 @@ void Control::catch_up() {
   simulation_.serve(clock_());
 }
 
-ordered_json Control::with_time(ordered_json result) {
+ordered_json Control::with_time(const ordered_json& result) {
   ordered_json complete{{"time", session_.module().now()}};
   complete.update(result);
   return complete;

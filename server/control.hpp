@@ -50,7 +50,7 @@ class Control final : private Watcher {
   void catch_up();
   void run_to(LiveSimulation::Goal goal, std::chrono::milliseconds limit, const RpcAnswer& answer);
   /// `result` with what every result has: the simulated time.
-  nlohmann::ordered_json with_time(nlohmann::ordered_json result);
+  nlohmann::ordered_json with_time(const nlohmann::ordered_json& result);
   client::Result<void> load(const std::string& path);
 
   std::uint64_t subscribe(ControlClient& client, std::vector<const twin::Quantity*> quantities, Microseconds every);

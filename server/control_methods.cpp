@@ -21,7 +21,6 @@ constexpr std::chrono::milliseconds usual_limit{10'000};
 constexpr std::chrono::milliseconds longest_limit{600'000};
 constexpr Microseconds usual_interval = 10'000;
 constexpr Microseconds longest_look = 1'000'000'000'000;
-constexpr Microseconds usual_look = scenario::Recording{}.every;
 
 RpcError wrong(const std::string& what) {
   return {RpcError::invalid_params, what};
@@ -184,7 +183,7 @@ void set(ControlCall& call) {
   std::vector<QuantitiesSet::Value> values;
   if (const auto error = read_values(call, values)) return call.answer(*error);
   call.control.catch_up();
-  call.control.session().set(std::move(values));
+  call.control.session().set(values);
   call.answer(call.control.with_time(ordered_json::object()));
 }
 
@@ -256,7 +255,7 @@ void advance(ControlCall& call) {
 void start_recording(ControlCall& call) {
   scenario::Recording recording;
   recording.file = call.parameters.at("path").get<std::string>();
-  recording.every = call.parameters.value("every", usual_look);
+  recording.every = call.parameters.value("every", recording.every);
   if (recording.every == 0 || recording.every > longest_look) {
     return call.answer(wrong("every is 1 us to 1000000000000 us"));
   }

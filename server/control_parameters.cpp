@@ -78,9 +78,9 @@ std::optional<RpcError> name_parameters(const ControlMethod& method, const json&
   named = given.is_array() ? object_of(method, given) : given.is_null() ? json::object() : given;
   for (const auto& [key, value] : named.items()) {
     const ControlParameter* parameter = find_parameter(method, key);
-    if (parameter == nullptr) return wrong(name + " has no parameter \"" + key + "\"");
+    if (parameter == nullptr) return wrong(std::string(name).append(" has no parameter \"").append(key).append("\""));
     if (const char* expected = objection(parameter->type, value)) {
-      return wrong(key + " of " + name + " has to be " + expected);
+      return wrong(std::string(key).append(" of ").append(name).append(" has to be ").append(expected));
     }
   }
   for (const ControlParameter& parameter : method.used_parameters()) {

@@ -72,7 +72,7 @@ void take_request(const json& request, const RpcCall& call, const std::shared_pt
   const json known_id = id != request.end() ? *id : json();
   const auto version = request.find("jsonrpc");
   if (version == request.end() || *version != "2.0") {
-    return refuse(known_id, invalid_request("\"jsonrpc\" has to be \"2.0\""));
+    return refuse(known_id, invalid_request(R"("jsonrpc" has to be "2.0")"));
   }
   const auto method = request.find("method");
   if (method == request.end() || !method->is_string()) {

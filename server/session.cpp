@@ -101,7 +101,7 @@ std::size_t Session::failures() const {
   return has_begun() ? run_->scenario_run()->failures() : 0;
 }
 
-void Session::set(std::vector<QuantitiesSet::Value> values) {
+void Session::set(const std::vector<QuantitiesSet::Value>& values) {
   run_->set(values);
 }
 

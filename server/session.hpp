@@ -75,7 +75,7 @@ class Session {
   // ---- What a person at the bench can do; the module is told at once
 
   /// @pre twin::refusal() has no objection to any of the values
-  void set(std::vector<QuantitiesSet::Value> values);
+  void set(const std::vector<QuantitiesSet::Value>& values);
   void power_cycle();
 
   // ---- Recordings, as many as wanted at any time

@@ -56,7 +56,7 @@ class Session::Run::Port final : public hal::BytePort {
 
  private:
   std::size_t read_replayed(std::uint8_t* buffer, std::size_t capacity) {
-    const BytesRead* read = run_.replayed<BytesRead>();
+    const auto* read = run_.replayed<BytesRead>();
     if (read == nullptr || read->port != number_ || read->bytes.size() > capacity) return 0;
     const std::size_t count = read->bytes.size();
     std::copy(read->bytes.begin(), read->bytes.end(), buffer);
@@ -102,7 +102,7 @@ class Session::Run::CanLine final : public hal::CanPort {
 
  private:
   bool read_replayed(hal::CanFrame& frame) {
-    const FrameRead* read = run_.replayed<FrameRead>();
+    const auto* read = run_.replayed<FrameRead>();
     if (read == nullptr) return false;
     frame = read->frame;
     run_.take_replayed();
@@ -114,9 +114,9 @@ class Session::Run::CanLine final : public hal::CanPort {
   std::optional<std::uint32_t> bit_rate_;
 };
 
-Session::Run::Run(const SessionSetup& setup, scenario::Scenario scenario, std::optional<SessionLog> log,
+Session::Run::Run(SessionSetup setup, scenario::Scenario scenario, std::optional<SessionLog> log,
                   const Options& options, std::shared_ptr<twin::TorqueTables> tables)
-    : setup_(setup), scenario_(std::move(scenario)), log_(std::move(log)), options_(options) {
+    : setup_(std::move(setup)), scenario_(std::move(scenario)), log_(std::move(log)), options_(options) {
   std::vector<hal::Port> ports;
   for (const SessionSetup::Port& port : setup_.ports) {
     hal::BytePort* bytes =
@@ -151,7 +151,7 @@ void Session::Run::connect(const Doors& doors) {
   if (can_) can_->connect(doors.can);
 }
 
-void Session::Run::note(SessionEvent event) {
+void Session::Run::note(const SessionEvent& event) {
   if (log_ && !is_finished_) log_->write(event);
 }
 

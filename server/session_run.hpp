@@ -20,7 +20,7 @@ namespace opentmcl::server {
 class Session::Run final : private ExtraTurnObserver {
  public:
   /// @param options outlive this
-  Run(const SessionSetup& setup, scenario::Scenario scenario, std::optional<SessionLog> log, const Options& options,
+  Run(SessionSetup setup, scenario::Scenario scenario, std::optional<SessionLog> log, const Options& options,
       std::shared_ptr<twin::TorqueTables> tables);
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
@@ -72,7 +72,7 @@ class Session::Run final : private ExtraTurnObserver {
   };
 
   void extra_turn(Microseconds now) override;
-  void note(SessionEvent event);
+  void note(const SessionEvent& event);
   void start(SignalRecording& recording);
   client::Result<void> close(SignalRecording& recording);
   void report(const scenario::Report& what);

@@ -197,7 +197,7 @@ TEST_F(SessionScenarioTest, IsReplayedToTheLastByteOfItsRecording) {
   EXPECT_EQ(1u, live.session->failures());
 
   Bench again(folder, "again");
-  again.resume(path);
+  ASSERT_NO_FATAL_FAILURE(again.resume(path));
   EXPECT_EQ(1u, again.session->failures());
   expect_same(seen, again.finish());
 }
@@ -211,7 +211,7 @@ TEST_F(SessionScenarioTest, GoesOnFromASnapshotAsTheFirstOneDid) {
   const Seen seen = live.finish();
 
   Bench other(folder, "other");
-  other.resume(path);
+  ASSERT_NO_FATAL_FAILURE(other.resume(path));
   next_seconds(other);
   expect_same(seen, other.finish());
 }
@@ -279,7 +279,7 @@ TEST_F(SessionScenarioTest, IsTheSameAtEverySpeedHoweverTheWallClockGoes) {
 TEST_F(SessionScenarioTest, IsTheSameHoweverTimeIsCut) {
   std::optional<Seen> expected;
   // The program looks every 1000 us whether it is there.
-  for (const Microseconds slice : {1'000'000, 1000, 500, 137}) {
+  for (const Microseconds slice : {Microseconds{1'000'000}, Microseconds{1000}, Microseconds{500}, Microseconds{137}}) {
     Bench bench(folder, "slices");
     bench.start();
     constexpr Microseconds end = 2'500'000;

@@ -192,7 +192,7 @@ Result<void> replay(const Context& context, const SimOptions& options, const Rec
   const Result<std::unique_ptr<Session>> session =
       Session::resume(options.replay, {}, records.session_options(context, options, [] {}));
   if (!session) return session.error();
-  const Result<void> finished = finish(options, **session, records);
+  Result<void> finished = finish(options, **session, records);
   const Microseconds time = (*session)->module().now();
   if (context.json) {
     fmt::print("{}\n", nlohmann::ordered_json{{"time", time}, {"same", true}}.dump());

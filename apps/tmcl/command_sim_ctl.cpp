@@ -160,7 +160,7 @@ Result<void> get(const Context& context, const CtlOptions& options) {
   if (!units) return units.error();
   for (const auto& [name, value] : result->at("values").items()) {
     const std::string text = text_of(name, value, *units);
-    fmt::print("{}\n", options.names.size() == 1 ? text : name + " = " + text);
+    fmt::print("{}\n", options.names.size() == 1 ? text : fmt::format("{} = {}", name, text));
   }
   return {};
 }
@@ -325,7 +325,7 @@ void add_sim_ctl(CLI::App& sim, Context& context) {
   ctl->add_option("--control", options->control, "its socket, as tmcl sim says at the start");
 
   using Command = std::function<Result<void>(const Context&, const CtlOptions&)>;
-  const auto add = [&](const char* name, const char* description, Command command) {
+  const auto add = [&](const char* name, const char* description, const Command& command) {
     CLI::App* added = ctl->add_subcommand(name, description)->fallthrough();
     added->callback([&context, options, command] { context.finish(command(context, *options)); });
     return added;
