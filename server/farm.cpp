@@ -23,12 +23,17 @@ std::chrono::microseconds Farm::turn() const {
   return std::clamp<std::chrono::microseconds>(turn_per_member * members_.size(), shortest_turn, longest_turn);
 }
 
+std::chrono::microseconds Farm::slice() const {
+  const std::size_t count = std::max<std::size_t>(members_.size(), 1);
+  return std::clamp<std::chrono::microseconds>(slices_of_all / count, shortest_slice, longest_slice);
+}
+
 void Farm::set(std::size_t member, Simulated& simulated, std::vector<const RequestQueue*> requests, bool is_prompt) {
   Follower::Options options;
   options.speed = options_.speed;
   options.duration = options_.duration;
   options.turn = is_prompt ? shortest_turn : turn();
-  options.slice = longest_slice;
+  options.slice = slice();
   members_.at(member).follower = std::make_unique<Follower>(simulated, std::move(requests), options, clock_);
 }
 

@@ -29,8 +29,12 @@ class Farm {
     std::optional<Microseconds> duration = {};
   };
 
-  /// What one turn of a member may take of the thread's time, and all turns in a row before hosts are heard again.
+  /// What one turn of a member may take of the thread's time, and all turns in a row before hosts are heard again. The
+  /// more members there are, the less: when the computer had no time for the farm all of them are late at once, and
+  /// requests must not wait until each has caught up.
   static constexpr std::chrono::microseconds longest_slice{500};
+  static constexpr std::chrono::microseconds shortest_slice{50};
+  static constexpr std::chrono::milliseconds slices_of_all{100};
   static constexpr std::chrono::milliseconds longest_round{1};
   /// A turn is this long for each member there is, but within these limits: 100 members have one each millisecond,
   /// 2000 and more each twenty. Requests are answered at once all the same; only what a module says of its own, the
@@ -80,6 +84,7 @@ class Farm {
   };
 
   std::chrono::microseconds turn() const;
+  std::chrono::microseconds slice() const;
   void note_turn(std::size_t member, WallTime now);
 
   boost::asio::io_context& events_;

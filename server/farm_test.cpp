@@ -226,6 +226,22 @@ TEST_F(FarmTest, LetsOthersKeepTheirTimeWhileOneIsFarTooSlow) {
   EXPECT_GT(slow.work, 1000) << "it gets what is left";
 }
 
+TEST_F(FarmTest, HasTheirTurnsQuicklyWhenAllAreLate) {
+  constexpr std::size_t count = 2000;
+  Farm farm = make(count);
+  std::vector<std::unique_ptr<Worker>> workers;
+  for (std::size_t i = 0; i < count; ++i) {
+    workers.push_back(std::make_unique<Worker>(10'000, wall, 3us));
+    farm.set(i, *workers.back(), {});
+  }
+  farm.start();
+  // The computer has had no time for the farm.
+  wall += 30s;
+  const WallTime begin = wall;
+  while (farm.turns() < 2 * count) farm.advance(wall);
+  EXPECT_LT(wall - begin, 150ms) << "a request would wait that long in the worst case";
+}
+
 TEST_F(FarmTest, GivesEachTheSameShareAtMaximumSpeed) {
   Farm farm = make(3, {.speed = Pace::maximum});
   std::vector<std::unique_ptr<Worker>> workers;
