@@ -189,6 +189,15 @@ bool Tmc429::advance_until_change(std::uint64_t clocks, unsigned motor) {
   return clock_ < end;
 }
 
+std::int32_t Tmc429::greatest_change(std::uint64_t clocks, unsigned motor) const {
+  const Tmc429RampSettings& settings = axes_[motor].ramp().settings();
+  const std::uint64_t ramp_ticks = ((clocks / tmc429::clock_prescaler) >> settings.ramp_divider) + 1;
+  constexpr std::uint64_t from_end_to_end = std::uint64_t{2} * tmc429::MaximumVelocity::Value::maximum
+                                            << tmc429::velocity_fraction_bits;
+  const std::uint64_t change = ramp_ticks * static_cast<std::uint64_t>(settings.maximum_acceleration);
+  return static_cast<std::int32_t>(std::min(change, from_end_to_end));
+}
+
 std::uint64_t Tmc429::clocks_for_steps(std::uint64_t steps, unsigned motor) const {
   const std::uint64_t ticks = axes_[motor].ramp().ticks_for_steps(steps);
   return ticks == std::numeric_limits<std::uint64_t>::max() ? ticks : ticks * tmc429::clock_prescaler;

@@ -86,6 +86,8 @@ class Tmc429 {
   bool at_target(unsigned motor = 0) const { return axes_[motor].at_target(); }
   /// The velocity has changed lately, so that advance_until_change() does not wait for its change.
   bool changes_velocity(unsigned motor = 0) const { return axes_[motor].ramp().changing(); }
+  /// By no more than this the ramp changes the velocity in so many clocks, in 1/256 of the unit of V_ACTUAL.
+  std::int32_t greatest_change(std::uint64_t clocks, unsigned motor = 0) const;
   /// Clocks in which `motor` gives fewer than `steps` steps for sure, whatever its ramp does, if nothing is written and
   /// no switch changes; the largest number when it gives none at all. @param steps 1 or more
   std::uint64_t clocks_for_steps(std::uint64_t steps, unsigned motor = 0) const;

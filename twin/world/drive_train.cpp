@@ -20,6 +20,14 @@ constexpr Tick short_span = 10 * ticks_per_millisecond;
 constexpr Tick finest_span = 640;
 /// One that is moved by single steps, this often.
 constexpr Tick single_step_span = ticks_per_millisecond;
+/// While a ramp changes its velocity, as often as it needs: each is a multiple of the next.
+constexpr Tick ramp_spans[] = {2 * ticks_per_millisecond, ticks_per_millisecond, ticks_per_millisecond / 2,
+                               ticks_per_millisecond / 10, finest_span};
+constexpr Tick shortest_ramp_span = 320;  // one step of the integrator
+/// So many microsteps the field may be elsewhere than the ramp generator has it, for a mean acceleration is told to the
+/// motor.
+constexpr double ramp_tolerance = 2;
+
 /// A motor that turns is reported this often.
 constexpr Tick report_period = short_span;
 
@@ -163,9 +171,24 @@ Tick DriveTrain::end_of_span() {
 /// The longest one in which the motor need not be brought up to date.
 Tick DriveTrain::span_clear_of_events(const Field& present) const {
   // That of single steps stands still as far as is known now.
-  const Tick longest = field_.drive().is_coarse ? single_step_span : motor_->longest_span(present);
+  const Tick longest =
+      field_.drive().is_coarse ? single_step_span : std::min(motor_->longest_span(present), longest_ramp_span());
   if (is_clear_of_events(longest, present)) return longest;
   return longest > short_span && is_clear_of_events(short_span, present) ? short_span : finest_span;
+}
+
+/// The longest one over which the mean acceleration of the field is as good as the one that it has: it may begin to
+/// cruise or to brake within the span, and turn round.
+Tick DriveTrain::longest_ramp_span() const {
+  if (watches_ramp_) return never_tick;
+  const Tmc429::Motion motion = tmc429_->motion(driven_motor);
+  for (const Tick span : ramp_spans) {
+    const double change = field_.velocity_of(tmc429_->greatest_change(span, driven_motor), motion.pulse_divider);
+    // With the same velocity at both ends, the one half accelerated and the other braked: x = a T²/4
+    const double error = std::fabs(change) * seconds_of(span) / 4;
+    if (error * electrical_turn <= ramp_tolerance) return span;
+  }
+  return shortest_ramp_span;
 }
 
 /// Whether nothing can bring the shaft to a contact or an end within a span.
@@ -173,7 +196,7 @@ bool DriveTrain::is_clear_of_events(Tick span, const Field& present) const {
   const double seconds = static_cast<double>(span) * seconds_per_tick;
   const double field_way = std::fabs(present.velocity) * seconds * electrical_turn;
   const double rotor_way = std::fabs(motor_->state().velocity) * seconds * electrical_turn;
-  // A ramp changes its velocity by less than half of the greatest within the longest span.
+  // A ramp moves it by little more: its spans are chosen so.
   const double reach = 1.5 * std::max(field_way, rotor_way) + swing;
   return static_cast<double>(surroundings_.distance_to_event()) > reach;
 }

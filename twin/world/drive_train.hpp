@@ -117,6 +117,7 @@ class DriveTrain final : private StepListener {
   Tick end_of_span();
   Tick end_of_ideal_span();
   Tick next_event() const;
+  Tick longest_ramp_span() const;
   Tick span_clear_of_events(const Field& present) const;
   bool is_clear_of_events(Tick span, const Field& present) const;
   FieldTracker::Drive drive() const;

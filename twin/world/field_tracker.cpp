@@ -32,15 +32,19 @@ void FieldTracker::jump_to(std::uint32_t microstep_position, Tick tick) {
 }
 
 /// R = f_CLK v / (2^PULSE_DIV 2048 32) steps a second (TMC429 datasheet, page 36).
-FieldTracker::Speed FieldTracker::speed_of(const Tmc429::Motion& motion) const {
-  if (start_speed_.is_of(motion, drive_.microsteps_a_step)) return start_speed_;
+double FieldTracker::velocity_of(std::int32_t velocity_with_fraction, unsigned pulse_divider) const {
   constexpr double one = 1 << tmc429::velocity_fraction_bits;
   const double pulse_ticks_per_second =
-      1 / (seconds_per_tick * tmc429::clock_prescaler * static_cast<double>(std::uint64_t{1} << motion.pulse_divider));
+      1 / (seconds_per_tick * tmc429::clock_prescaler * static_cast<double>(std::uint64_t{1} << pulse_divider));
   const double steps_per_second =
-      pulse_ticks_per_second * motion.velocity_with_fraction / one / tmc429::pulse_accumulator_size;
+      pulse_ticks_per_second * velocity_with_fraction / one / tmc429::pulse_accumulator_size;
+  return turns_of(steps_per_second * drive_.microsteps_a_step);
+}
+
+FieldTracker::Speed FieldTracker::speed_of(const Tmc429::Motion& motion) const {
+  if (start_speed_.is_of(motion, drive_.microsteps_a_step)) return start_speed_;
   return {motion.velocity_with_fraction, motion.pulse_divider, drive_.microsteps_a_step,
-          turns_of(steps_per_second * drive_.microsteps_a_step)};
+          velocity_of(motion.velocity_with_fraction, motion.pulse_divider)};
 }
 
 double FieldTracker::other_velocity() const {

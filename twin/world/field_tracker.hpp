@@ -43,6 +43,9 @@ class FieldTracker {
   Tick begun() const { return begun_; }
   const Drive& drive() const { return drive_; }
 
+  /// Turns a second of the field when the motion controller has this velocity, in 1/256 of the unit of V_ACTUAL.
+  double velocity_of(std::int32_t velocity_with_fraction, unsigned pulse_divider) const;
+
   /// The field over the present span up to `now`. Valid until the next call of anything that is not const.
   Field until(Tick now, const Tmc429::Motion& motion) const;
 

@@ -3,6 +3,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <sstream>
 #include <string>
@@ -98,6 +99,37 @@ RC_GTEST_PROP(Spans, DoNotDependOnWhenAnObserverComesAndGoes, ()) {
   const std::string heard = steps_since(comes, part.text());
   RC_ASSERT(steps.substr(0, heard.size()) == heard);
   RC_ASSERT(steps_since(comes + stays, whole.text()) == steps.substr(heard.size()));
+}
+
+/// Within a span the motor is told of a mean acceleration, whatever the ramp generator does: begin to cruise, to brake
+/// or to turn round.
+RC_GTEST_PROP(Spans, HaveTheFieldWhereTheRampGeneratorHasIt, ()) {
+  using tmc429::RampMode;
+  constexpr double microsteps_per_electrical_turn = tmc262::microstep_positions;
+  World world(nullptr, {.machine = RotaryAxisDimensions{}, .motor = motors().front()});
+  start(world, *rc::gen::inRange(0, 5));
+  world.transfer_tmc262(tmc262::datagram(tmc262::StallGuardAndCurrent::CurrentScale::of(31)));
+  set<tmc429::MaximumAcceleration>(world, 1 << *rc::gen::inRange(0, 11));
+  write(world,
+        tmc429::Dividers::Pulse::of(*rc::gen::inRange(2, 5)) | tmc429::Dividers::Ramp::of(*rc::gen::inRange(0, 8)));
+  const double microsteps_a_step = world.tmc262().microsteps_per_pulse();
+  for (int motion = 0; motion < 4; ++motion) {
+    if (*rc::gen::arbitrary<bool>()) {
+      write(world, tmc429::Mode::of(RampMode::velocity));
+      set<tmc429::TargetVelocity>(world, *rc::gen::inRange(-1'000, 1'000));
+    } else {
+      write(world, tmc429::Mode::of(RampMode::ramp));
+      set<tmc429::TargetPosition>(world, *rc::gen::inRange(-5'000, 5'000));
+    }
+    const Tick end = world.now() + *rc::gen::inRange<Tick>(1, 100 * millisecond);
+    while (world.now() < end) {
+      world.advance_to(std::min(end, world.now() + 1'777));
+      const double field = world.present_field().angle * microsteps_per_electrical_turn;
+      const double position = world.tmc429().motion().position * microsteps_a_step;
+      // A step under way where the direction changes, the middle of the stairs, and what the spans leave.
+      RC_ASSERT(std::fabs(field - position) <= 1.5 * microsteps_a_step + 2);
+    }
+  }
 }
 
 TEST(Spans, MoveTheFieldTheWayOfAnInvertedDirection) {
