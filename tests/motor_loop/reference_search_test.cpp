@@ -30,8 +30,9 @@ void mount_motor(Trial& trial, twin::TorqueTables& tables, Dice& dice) {
   const auto motors = twin::motors();
   const twin::MotorData& motor = motors[static_cast<std::size_t>(dice.between(0, static_cast<int>(motors.size()) - 1))];
   trial.motor = motor;
-  // 149 to 297 rpm: above the detent resonances, where no stepper carries half of its torque (docs/physics).
-  trial.fast = dice.between(130, 260);
+  // 69 to 297 rpm: above the resonance with the detent, near which no stepper carries half of its torque
+  // (docs/decisions/0054-speeds-of-reference-searches.md).
+  trial.fast = dice.between(60, 260);
   // Both edges are found up to a millisecond late; the rest of a full step is left for the lag of the rotor.
   trial.slowly = std::max(trial.slowly / 4, 1);
 
