@@ -1,6 +1,7 @@
 // A virtual module with a motor that has inertia, a load angle and a torque it can be asked too much of.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 
@@ -18,8 +19,8 @@ inline constexpr std::int32_t turn = 200 * full_step;
 /// Units of parameter 4 and its like a revolution per minute: 16·10⁶ / (2^0 × 2048 × 32) microsteps a second each
 /// (PD-1161 manual 6.1.1).
 inline constexpr double velocity_per_rpm = turn / 60.0 / (16e6 / 65'536.0);
-constexpr std::int32_t velocity_of(double rpm) {
-  return static_cast<std::int32_t>(rpm * velocity_per_rpm + 0.5);
+inline std::int32_t velocity_of(double rpm) {
+  return static_cast<std::int32_t>(std::lround(rpm * velocity_per_rpm));
 }
 
 /// N m, with which the motor of both modules holds at its full current: more is above every pull-out torque.

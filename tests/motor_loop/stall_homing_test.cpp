@@ -40,7 +40,7 @@ double place_of_zero(ModuleId module, std::int32_t start) {
   constexpr double electrical_turn = tmc262::microstep_positions;
   const auto rotor = static_cast<double>(world.rotor_angle());
   const double behind = std::remainder(world.present_field().angle * electrical_turn - rotor, electrical_turn);
-  EXPECT_NEAR(behind, 0, full_step / 16) << "the slider is where it should be";
+  EXPECT_NEAR(behind, 0, full_step / 16.0) << "the slider is where it should be";
   const double field = rotor + behind;
   return field - static_cast<double>(world.machine().travel().lowest) - bench.position();
 }
@@ -69,7 +69,7 @@ TEST_P(StallHoming, FindsTheSamePlaceWithinAFullStepFromEverywhere) {
     // Beyond the end, where the motor pushed, but not so far that it fell back.
     EXPECT_GE(nearest, -2 * full_step);
     EXPECT_LE(furthest, 0);
-    if (furthest - nearest < full_step / 16) ++precise_machines;
+    if (furthest - nearest < full_step / 16.0) ++precise_machines;
   }
   // On the others a full step ends as the slider comes to the end, and it or the next one is measured as a stall.
   EXPECT_GE(precise_machines, electrical_turn * 3 / 4);
