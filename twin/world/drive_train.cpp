@@ -20,7 +20,7 @@ constexpr Tick short_span = 10 * ticks_per_millisecond;
 constexpr Tick finest_span = 640;
 /// One that is moved by single steps, this often.
 constexpr Tick single_step_span = ticks_per_millisecond;
-/// While a ramp changes its velocity, as often as it needs: each is a multiple of the next.
+/// While a ramp changes its velocity, as often as it needs.
 constexpr Tick ramp_spans[] = {2 * ticks_per_millisecond, ticks_per_millisecond, ticks_per_millisecond / 2,
                                ticks_per_millisecond / 10, finest_span};
 constexpr Tick shortest_ramp_span = 320;  // one step of the integrator
