@@ -19,7 +19,10 @@ struct JsonRpc : testing::Test {
   std::vector<std::string> responses_to(const std::string& text) {
     std::vector<std::string> responses;
     take_json_rpc(
-        text, [this](const std::string& method, const json& params, RpcAnswer answer) { call(method, params, answer); },
+        text,
+        [this](const std::string& method, const json& params, const RpcAnswer& answer) {
+          call(method, params, answer);
+        },
         [&responses](std::string response) { responses.push_back(std::move(response)); });
     return responses;
   }
@@ -73,7 +76,8 @@ TEST_F(JsonRpc, AnswersABatchWhenAllOfItIsAnswered) {
                           {"jsonrpc":"2.0","method":"later","id":3}])";
   std::vector<std::string> responses;
   take_json_rpc(
-      batch, [this](const std::string& method, const json& params, RpcAnswer answer) { call(method, params, answer); },
+      batch,
+      [this](const std::string& method, const json& params, const RpcAnswer& answer) { call(method, params, answer); },
       [&responses](std::string response) { responses.push_back(std::move(response)); });
   later[1](ordered_json("third"));
   later[1] = nullptr;
@@ -105,8 +109,8 @@ TEST_F(JsonRpc, SurvivesTextsThatAreDeep) {
   EXPECT_EQ(-32600, json::parse(response_to(std::string(depth, '[') + std::string(depth, ']')))[0]["error"]["code"]);
 }
 
-RC_GTEST_PROP(JsonRpcText, IsAlwaysAnsweredByOneTextOrNone, (std::string text)) {
-  const std::string around = *rc::gen::element<std::string>("", "{", "[", "{\"jsonrpc\":\"2.0\",");
+RC_GTEST_PROP(JsonRpcText, IsAlwaysAnsweredByOneTextOrNone, (const std::string& text)) {
+  const std::string around = *rc::gen::element<std::string>("", "{", "[", R"({"jsonrpc":"2.0",)");
   int count = 0;
   take_json_rpc(
       around + text, [](const std::string&, const json&, const RpcAnswer& answer) { answer(ordered_json(1)); },

@@ -95,7 +95,7 @@ RC_GTEST_PROP(SessionEvent, ReadsBackWhatItWrites, (Microseconds time, unsigned 
   RC_ASSERT(session_event_from(text_of(set)) == set);
 }
 
-RC_GTEST_PROP(SessionEvent, TakesAnyTextWithoutHarm, (std::string text)) {
+RC_GTEST_PROP(SessionEvent, TakesAnyTextWithoutHarm, (const std::string& text)) {
   const std::string line = "5 " + *rc::gen::element<std::string>("read 0 ", "can_read ", "set ", "check ") + text;
   if (const auto event = session_event_from(line)) {
     RC_ASSERT(session_event_from(text_of(*event)) == event);

@@ -162,11 +162,12 @@ TEST_F(SessionLogTest, RefusesWhatIsNoLogWithTheLine) {
        std::initializer_list<std::pair<const char*, const char*>>{{"tmcm1110", "tmcm9999"},
                                                                   {"free", "moon"},
                                                                   {"rs485", "rs9"},
-                                                                  {"\"can\":true", "\"can\":3"},
-                                                                  {"\"turn\":250", "\"turn\":0"},
-                                                                  {"\"16320\"", "\"16321\""},
-                                                                  {"\"64\":\"12", "\"64\":\""},
-                                                                  {"\"machine\"", "\"engine\""},
+                                                                  {R"("can":true)", R"("can":3)"},
+                                                                  {R"("turn":250)", R"("turn":0)"},
+                                                                  {R"("16320")", R"("16321")"},
+                                                                  {R"("64":"12)", R"("64":")"},
+                                                                  {R"("machine")", R"("engine")"},
+                                                                  {"QSH", "QHS"},
                                                                   {"{", "["}}) {
     std::string changed = setup;
     ASSERT_NE(std::string::npos, changed.find(from)) << from;
