@@ -347,21 +347,15 @@ void add_sim(CLI::App& app, Context& context) {
                       "how often signals are looked at that are not in the trace; default: 1ms");
   command->add_option("--log", options->log, "write down all that comes from outside, to be replayed");
   command->add_option("--trace", options->trace, "write down every signal of the world, as text");
-  command->add_option("--load", options->load, "go on from this snapshot of tmcl sim ctl save")
-      ->excludes(module)
-      ->excludes(eeprom)
-      ->excludes(program)
-      ->excludes(machine)
-      ->excludes(motor)
-      ->excludes(scenario);
-  command
-      ->add_option("--replay", options->replay, "do once more what this log says, check that it is the same, and end")
-      ->excludes(module)
-      ->excludes(eeprom)
-      ->excludes(program)
-      ->excludes(machine)
-      ->excludes(motor)
-      ->excludes(scenario);
+  CLI::Option* load = command->add_option("--load", options->load, "go on from this snapshot of tmcl sim ctl save");
+  CLI::Option* replay = command->add_option("--replay", options->replay,
+                                            "do once more what this log says, check that it is the same, and end");
+  replay->excludes(load);
+  // A log says with what it began.
+  for (CLI::Option* option : {module, eeprom, program, machine, motor, scenario}) {
+    load->excludes(option);
+    replay->excludes(option);
+  }
   command->add_flag("--no-start", options->no_start, "do not start the program");
   command->add_flag("-q,--quiet", options->quiet, "no live line");
   add_sim_ctl(*command, context);
