@@ -136,19 +136,23 @@ std::optional<SessionEvent> session_event_from(std::string_view line) {
   const auto time = number_of<Microseconds>(take_word(line), 10);
   if (!time) return std::nullopt;
   const std::string_view kind = take_word(line);
-  const auto event = [&time](auto what) -> std::optional<SessionEvent> {
+  // Put into a value that exists already: of a temporary GCC 12 believes, with sanitizers, that it is not initialized.
+  SessionEvent event;
+  event.time = *time;
+  const auto with = [&event](auto what) -> std::optional<SessionEvent> {
     if (!what) return std::nullopt;
-    return SessionEvent{*time, std::move(*what)};
+    event.what = std::move(*what);
+    return std::move(event);
   };
   if (kind == "turn" && line.empty()) return SessionEvent{*time, ExtraTurn{}};
-  if (kind == "read") return event(bytes_read_from(line));
-  if (kind == "can_read") return event(frame_read_from(line));
+  if (kind == "read") return with(bytes_read_from(line));
+  if (kind == "can_read") return with(frame_read_from(line));
   if (kind == "begin") {
     if (const auto duration = number_of<Microseconds>(line, 10)) return SessionEvent{*time, ScenarioBegun{*duration}};
   }
-  if (kind == "set") return event(quantities_set_from(line));
+  if (kind == "set") return with(quantities_set_from(line));
   if (kind == "power_cycle" && line.empty()) return SessionEvent{*time, PowerCycled{}};
-  if (kind == "check") return event(check_from(line));
+  if (kind == "check") return with(check_from(line));
   if (kind == "end") {
     if (const auto check = check_from(line)) return SessionEvent{*time, SessionEnd{*check}};
   }
