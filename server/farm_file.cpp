@@ -76,8 +76,9 @@ class Reader {
     for (const scenario::SectionName& section : scenario::bench_sections()) {
       if (!root.contains(section.name)) continue;
       const std::string name(section.name);
-      report(root, section.name,
-             name + " is said of each module: expected [module." + name + "] behind its [[module]]");
+      std::string objection = name + " is said of each module: expected [module.";
+      objection += name + "] behind its [[module]]";
+      report(root, section.name, objection);
       other_keys.push_back(section.name);
     }
     read_keys(root, farm_keys(), "a farm", file_.description, other_keys);
