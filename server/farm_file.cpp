@@ -17,6 +17,7 @@
 #include "scenario/section.hpp"
 #include "scenario/toml_place.hpp"
 #include "server/farm_keys.hpp"
+#include "server/port_kinds.hpp"
 
 namespace opentmcl::server {
 
@@ -234,9 +235,7 @@ class Reader {
     if (!entry.can.empty() && doors.has_can()) {
       report(table, "can", "the module has one CAN connector: expected a bus or doors of its own");
     }
-    if (module.link_kind == hal::PortKind::rs232 && module.kind->id != ModuleId::pd1161) {
-      report(table, "link_kind", "a " + std::string(module.kind->name) + " has no RS232: expected usb or rs485");
-    }
+    if (const auto objection = absence(module.link_kind, *module.kind)) report(table, "link_kind", *objection);
     if (table.contains("link_kind") && doors.link.empty()) {
       report(table, "link_kind", "link_kind is for a module with a link");
     }

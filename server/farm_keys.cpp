@@ -4,20 +4,28 @@
 #include <iterator>
 #include <utility>
 
+#include <algorithm>
+#include <array>
+#include <iterator>
 #include "firmware/spec/global_parameters.hpp"
 #include "scenario/problem.hpp"
 #include "scenario/section.hpp"
+
+#include "boards/twin/paced_port.hpp"
 #include "server/farm_file.hpp"
+#include "server/port_kinds.hpp"
 
 namespace opentmcl::server {
 
 namespace {
 
 constexpr std::int64_t most_alike = 10'000;
-constexpr std::int64_t slowest_wire = 300;
-constexpr std::int64_t fastest_wire = 1'000'000;
 constexpr std::string_view kinds[] = {pd1161.argument, tmcm1110.argument};
-constexpr std::string_view link_kinds[] = {"usb", "rs485", "rs232"};
+constexpr auto link_kinds = [] {
+  std::array<std::string_view, std::size(port_kinds)> names{};
+  std::transform(std::begin(port_kinds), std::end(port_kinds), names.begin(), [](const auto& row) { return row.name; });
+  return names;
+}();
 
 template <class Target>
 constexpr FarmKey<Target> name_key{"name", FarmValueKind::name, "What it is called; unique in the file.",
@@ -51,11 +59,8 @@ constexpr FarmKey<FarmModuleEntry> module_keys[] = {
     {"link", FarmValueKind::path, "Where to make a link to its serial port, a pseudo terminal.",
      [](FarmModuleEntry& entry, FarmValue&& value) { entry.module.doors.link = std::move(value.text); }},
     {"link_kind", FarmValueKind::text, "What that serial port stands for; usb if not given. rs232: pd1161 alone.",
-     [](FarmModuleEntry& entry, FarmValue&& value) {
-       constexpr hal::PortKind by_name[] = {hal::PortKind::usb, hal::PortKind::rs485, hal::PortKind::rs232};
-       entry.module.link_kind = by_name[std::find(link_kinds, std::end(link_kinds), value.text) - link_kinds];
-     },
-     0, 0, link_kinds},
+     [](FarmModuleEntry& entry, FarmValue&& value) { entry.module.link_kind = find_port_kind(value.text)->kind; }, 0, 0,
+     link_kinds},
     {"tcp", FarmValueKind::number, "TCP port; 0: any free one.",
      [](FarmModuleEntry& entry, FarmValue&& value) {
        entry.module.doors.tcp = static_cast<std::uint16_t>(value.number);
@@ -63,7 +68,7 @@ constexpr FarmKey<FarmModuleEntry> module_keys[] = {
      0, highest_tcp_port},
     {"wire", FarmValueKind::number, "bit/s of the serial port and of TCP: bytes take their time; none if not given.",
      [](FarmModuleEntry& entry, FarmValue&& value) { entry.module.wire = static_cast<std::uint32_t>(value.number); },
-     slowest_wire, fastest_wire},
+     PacedPort::slowest_rate, PacedPort::fastest_rate},
     {"slcan_link", FarmValueKind::path, "tmcm1110: where to make a link to a serial CAN adapter (SLCAN).",
      [](FarmModuleEntry& entry, FarmValue&& value) { entry.module.doors.slcan_link = std::move(value.text); }},
     {"can_udp", FarmValueKind::group, "tmcm1110: GROUP:PORT of a CAN bus over UDP multicast, in python-can's format.",

@@ -5,10 +5,12 @@
 #include <optional>
 #include <span>
 
+#include "boards/twin/paced_port.hpp"
 #include "scenario/scenario_file.hpp"
 #include "scenario/section.hpp"
 #include "server/hexadecimal.hpp"
 #include "server/open_transport.hpp"
+#include "server/port_kinds.hpp"
 
 namespace opentmcl::server {
 
@@ -20,30 +22,6 @@ using client::Result;
 using nlohmann::json;
 using nlohmann::ordered_json;
 using twin::Eeprom;
-
-struct PortKindName {
-  hal::PortKind kind;
-  const char* name;
-};
-
-constexpr PortKindName port_kind_names[] = {
-    {hal::PortKind::usb, "usb"}, {hal::PortKind::rs232, "rs232"}, {hal::PortKind::rs485, "rs485"}};
-
-const char* name_of(hal::PortKind kind) {
-  for (const PortKindName& row : port_kind_names) {
-    if (row.kind == kind) return row.name;
-  }
-  return "";
-}
-
-std::optional<hal::PortKind> port_kind_of(const std::string& name) {
-  for (const PortKindName& row : port_kind_names) {
-    if (name == row.name) return row.kind;
-  }
-  return std::nullopt;
-}
-
-constexpr std::int64_t fastest_wire = 1'000'000;  // bit/s, as of tmcl sim --wire
 
 bool is_blank(std::span<const std::uint8_t> page) {
   return std::all_of(page.begin(), page.end(), [](std::uint8_t byte) { return byte == Eeprom::erased; });
@@ -122,7 +100,7 @@ Result<scenario::Scenario> scenario_of(const SessionSetup& setup) {
 ordered_json to_json(const SessionSetup& setup) {
   ordered_json ports = ordered_json::array();
   for (const SessionSetup::Port& port : setup.ports) {
-    ordered_json described{{"kind", name_of(port.kind)}};
+    ordered_json described{{"kind", names_of(port.kind).name}};
     if (port.wire != 0) described["wire"] = port.wire;
     ports.push_back(std::move(described));
   }
@@ -158,11 +136,11 @@ Result<SessionSetup> session_setup_from(const json& source) {
     if (setup.turn == 0) return bad("it has turns of 0 us");
     for (const json& port : source.at("ports")) {
       const auto name = port.at("kind").get<std::string>();
-      const std::optional<hal::PortKind> kind = port_kind_of(name);
-      if (!kind) return bad("it has a port of kind \"" + name + "\": expected usb, rs232 or rs485");
+      const PortKindName* const kind = find_port_kind(name);
+      if (kind == nullptr) return bad("it has a port of kind \"" + name + "\": expected usb, rs232 or rs485");
       const auto wire = port.value("wire", std::int64_t{0});
-      if (wire < 0 || wire > fastest_wire) return bad("it has a line of " + std::to_string(wire) + " bit/s");
-      setup.ports.push_back({*kind, static_cast<std::uint32_t>(wire)});
+      if (wire < 0 || wire > PacedPort::fastest_rate) return bad("it has a line of " + std::to_string(wire) + " bit/s");
+      setup.ports.push_back({kind->kind, static_cast<std::uint32_t>(wire)});
     }
     setup.has_can = source.at("can").get<bool>();
     if (const auto error = read_pages(source.at("eeprom"), setup.eeprom)) return *error;

@@ -17,6 +17,7 @@
 #include "apps/tmcl/sim_plan.hpp"
 #include "apps/tmcl/status_line.hpp"
 #include "apps/tmcl/trace_file.hpp"
+#include "boards/twin/paced_port.hpp"
 #include "scenario/section.hpp"
 #include "server/control.hpp"
 #include "server/control_server.hpp"
@@ -311,7 +312,7 @@ void add_sim(CLI::App& app, Context& context) {
   command
       ->add_option("--wire", options->wire,
                    "bit/s of the serial port and of TCP: bytes take their time; without it they take none")
-      ->check(CLI::Range(300U, 1'000'000U));
+      ->check(CLI::Range(PacedPort::slowest_rate, PacedPort::fastest_rate));
   command->add_option("--slcan-link", options->endpoints.slcan_link,
                       "tmcm1110: where to make a link to a serial CAN adapter (SLCAN)");
   command->add_option("--can-udp", options->endpoints.can_udp,

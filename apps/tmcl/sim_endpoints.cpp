@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "firmware/spec/lookup.hpp"
+#include "server/port_kinds.hpp"
 
 namespace opentmcl::app {
 
@@ -80,17 +81,13 @@ Result<CanUdpEndpoint> join(boost::asio::io_context& events, const std::string& 
   return CanUdpEndpoint::join(events, group, *port, bus, requests_arrived);
 }
 
-/// What the module's connectors are: both have USB and RS485, only the PD-1161 has RS232.
 Result<hal::PortKind> parse_port_kind(const std::string& wanted, const ModuleDescription& module) {
-  if (wanted == "usb") return hal::PortKind::usb;
-  if (wanted == "rs485") return hal::PortKind::rs485;
-  if (wanted != "rs232") {
+  const server::PortKindName* const found = server::find_port_kind(wanted);
+  if (found == nullptr) {
     return Error{ErrorKind::usage, fmt::format("\"{}\" is no kind of port: expected usb, rs485 or rs232", wanted), {}};
   }
-  if (module.id != ModuleId::pd1161) {
-    return Error{ErrorKind::usage, fmt::format("a {} has no RS232: expected usb or rs485", module.name), {}};
-  }
-  return hal::PortKind::rs232;
+  if (const auto objection = server::absence(found->kind, module)) return Error{ErrorKind::usage, *objection, {}};
+  return found->kind;
 }
 
 bool wants_can(const SimEndpoints::Options& options) {
@@ -98,20 +95,6 @@ bool wants_can(const SimEndpoints::Options& options) {
 }
 
 }  // namespace
-
-const char* name_of(hal::PortKind kind) {
-  switch (kind) {
-    case hal::PortKind::usb:
-      return "USB";
-    case hal::PortKind::rs232:
-      return "RS232";
-    case hal::PortKind::rs485:
-      return "RS485";
-    case hal::PortKind::can:
-      return "CAN";
-  }
-  return "";
-}
 
 Result<SimEndpoints> SimEndpoints::open(boost::asio::io_context& events, const Options& options,
                                         const ModuleDescription& module,

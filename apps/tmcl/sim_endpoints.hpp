@@ -74,7 +74,4 @@ class SimEndpoints {
   std::optional<server::SocketCanEndpoint> socket_can_;
 };
 
-/// As the manuals print it: "RS485".
-const char* name_of(hal::PortKind kind);
-
 }  // namespace opentmcl::app

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "server/port_kinds.hpp"
+
 namespace opentmcl::app {
 
 namespace {
@@ -13,7 +15,7 @@ void introduce_as_json(const ModuleDescription& module, const SimEndpoints& endp
   fmt::print("{}\n", nlohmann::ordered_json{{"module", module.name},
                                             {"pty", endpoints.pty_path()},
                                             {"link", endpoints.link_path()},
-                                            {"port_kind", name_of(endpoints.port_kind())},
+                                            {"port_kind", server::names_of(endpoints.port_kind()).title},
                                             {"tcp", endpoints.tcp_url()},
                                             {"slcan", endpoints.slcan_path()},
                                             {"slcan_link", endpoints.slcan_link_path()},
@@ -26,8 +28,8 @@ void introduce_as_json(const ModuleDescription& module, const SimEndpoints& endp
 void introduce_as_text(const ModuleDescription& module, const SimEndpoints& endpoints, const std::string& control) {
   fmt::print("Virtual {}, firmware V{}.{:02}. Talk to it at\n", module.name, module.firmware_major,
              module.firmware_minor);
-  fmt::print("  {}  (serial port as {}, a link to {})\n", endpoints.link_path(), name_of(endpoints.port_kind()),
-             endpoints.pty_path());
+  fmt::print("  {}  (serial port as {}, a link to {})\n", endpoints.link_path(),
+             server::names_of(endpoints.port_kind()).title, endpoints.pty_path());
   const auto name = [](const std::string& endpoint, const std::string& remark) {
     if (!endpoint.empty()) fmt::print("  {}{}\n", endpoint, remark);
   };

@@ -20,6 +20,9 @@ namespace opentmcl {
 class PacedPort final : public hal::BytePort, public BenchActor {
  public:
   static constexpr unsigned bits_per_byte = 10;
+  /// What users may ask for, in bit/s.
+  static constexpr std::uint32_t slowest_rate = 300;
+  static constexpr std::uint32_t fastest_rate = 1'000'000;
 
   /// @param host where the module's bytes go and the host's come from, without delay; must outlive this
   /// @param kind at a port of the kind rs485 the module listens and speaks at the rate of its global parameter 65, and
