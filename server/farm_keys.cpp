@@ -1,22 +1,18 @@
 #include "server/farm_keys.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <utility>
 
-#include <algorithm>
-#include <array>
-#include <iterator>
+#include "boards/twin/paced_port.hpp"
 #include "firmware/spec/global_parameters.hpp"
 #include "scenario/problem.hpp"
 #include "scenario/section.hpp"
-
-#include "boards/twin/paced_port.hpp"
 #include "server/farm_file.hpp"
 #include "server/port_kinds.hpp"
 
 namespace opentmcl::server {
-
 namespace {
 
 constexpr std::int64_t most_alike = 10'000;
