@@ -202,9 +202,7 @@ void VirtualModule::take_turn() {
 /// these turns are left out: what happens, and when, is the same.
 void VirtualModule::leave_out_vain_turns(Microseconds time) {
   const Microseconds end = std::min({watches_until_, time, next_act()});
-  const bool is_awaited =
-      world_.input_changes() != noted_input_changes_ || world_.motion_changes() != noted_motion_changes_;
-  if (is_awaited || next_turn_ >= end) return;
+  if (has_world_changed() || next_turn_ >= end) return;
   world_.advance_to_motion_change(end * twin::ticks_per_microsecond);
   const Microseconds reached = (world_.now() + twin::ticks_per_microsecond - 1) / twin::ticks_per_microsecond;
   if (reached <= next_turn_) return;
@@ -217,7 +215,7 @@ void VirtualModule::leave_out_vain_turns(Microseconds time) {
 bool VirtualModule::is_vain_turn() {
   if (next_turn_ >= watches_until_) return false;
   bring_world_to_present();
-  return world_.input_changes() == noted_input_changes_ && world_.motion_changes() == noted_motion_changes_;
+  return !has_world_changed();
 }
 
 Microseconds VirtualModule::next_act() const {

@@ -122,6 +122,10 @@ class VirtualModule final : public Simulated {
     const twin::Tick present = now_ * twin::ticks_per_microsecond;
     if (world_.now() < present) world_.advance_to(present);
   }
+  /// Since the firmware's last turn, in what a waiting program looks at.
+  bool has_world_changed() const {
+    return world_.input_changes() != noted_input_changes_ || world_.motion_changes() != noted_motion_changes_;
+  }
   void leave_out_vain_turns(Microseconds time);
   bool is_vain_turn();
   Microseconds next_firmware_turn() const { return world_.input_changes() == noted_input_changes_ ? next_turn_ : now_; }
