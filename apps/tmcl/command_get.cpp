@@ -8,7 +8,7 @@
 #include "apps/tmcl/commands.hpp"
 #include "apps/tmcl/context.hpp"
 #include "apps/tmcl/parameter_choice.hpp"
-#include "apps/tmcl/physical_value.hpp"
+#include "apps/tmcl/physical_scale.hpp"
 
 namespace opentmcl::app {
 
@@ -25,23 +25,19 @@ Result<void> run_get(const Context& context, const ParameterChoice& choice) {
   const Result<std::int32_t> value = choice.is_global() ? client.global_parameter(parameter->number, choice.bank())
                                                         : client.axis_parameter(parameter->number);
   if (!value) return value.error();
-  const Result<std::string> physical = physical_value(client, parameter->unit, *value);
-  if (!physical) return physical.error();
+  const Result<lang::PhysicalScale> scale = physical_scale(client, parameter->unit);
+  if (!scale) return scale.error();
 
   if (context.json) {
     nlohmann::ordered_json data{{"number", parameter->number},
                                 {"symbol", parameter->symbol},
                                 {"value", *value},
                                 {"unit", name_of(parameter->unit)},
-                                {"physical", *physical}};
+                                {"physical", lang::physical_value(parameter->unit, *value, *scale)}};
     if (choice.is_global()) data["bank"] = choice.bank_number;
     fmt::print("{}\n", data.dump());
-  } else if (physical->empty()) {
-    fmt::print("{}\n", *value);
-  } else if (*physical == name_of(parameter->unit)) {
-    fmt::print("{} {}\n", *value, *physical);
   } else {
-    fmt::print("{} = {}\n", *value, *physical);
+    fmt::print("{}\n", lang::number_with_physical_value(parameter->unit, *value, *scale));
   }
   return {};
 }

@@ -7,7 +7,7 @@
 
 #include "apps/tmcl/commands.hpp"
 #include "apps/tmcl/context.hpp"
-#include "apps/tmcl/physical_value.hpp"
+#include "apps/tmcl/physical_scale.hpp"
 #include "firmware/spec/instructions.hpp"
 
 namespace opentmcl::app {
@@ -24,12 +24,15 @@ Result<void> run_rotate(const Context& context, std::int32_t velocity) {
   if (!connection) return connection.error();
   client::Client& client = *connection->client;
   if (Result<void> rotated = client.rotate(velocity); !rotated) return rotated;
-  const Result<std::string> physical = physical_value(client, Unit::internal_velocity, velocity);
-  if (!physical) return physical.error();
+  const Result<lang::PhysicalScale> scale = physical_scale(client, Unit::internal_velocity);
+  if (!scale) return scale.error();
   if (context.json) {
-    fmt::print("{}\n", nlohmann::ordered_json{{"velocity", velocity}, {"physical", *physical}}.dump());
+    fmt::print("{}\n",
+               nlohmann::ordered_json{{"velocity", velocity},
+                                      {"physical", lang::physical_value(Unit::internal_velocity, velocity, *scale)}}
+                   .dump());
   } else {
-    fmt::print(stderr, "rotating at {} = {}\n", velocity, *physical);
+    fmt::print(stderr, "rotating at {}\n", lang::number_with_physical_value(Unit::internal_velocity, velocity, *scale));
   }
   return {};
 }

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "client/units.hpp"
 #include "firmware/module/module.hpp"
+#include "lang/physical_value.hpp"
 
 namespace opentmcl::app {
 
@@ -14,9 +14,12 @@ MotionState motion_state_of(VirtualModule& module) {
 }
 
 std::string describe(const MotionState& state) {
-  const double frequency = client::microsteps_per_second(state.velocity, state.pulse_divisor);
+  lang::PhysicalScale scale;
+  scale.pulse_divisor = state.pulse_divisor;
+  scale.microstep_resolution = state.microstep_resolution;
+  const double frequency = lang::microsteps_per_second(state.velocity, scale);
   return fmt::format("position {:11d}  speed {:5d} = {:8.2f} rpm  program {}", state.position, state.velocity,
-                     client::turns_per_minute(frequency, state.microstep_resolution), client::name_of(state.program));
+                     lang::turns_per_minute(frequency, scale), client::name_of(state.program));
 }
 
 }  // namespace opentmcl::app

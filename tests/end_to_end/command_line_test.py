@@ -32,7 +32,9 @@ class WithNothingPluggedIn(CommandLineTest):
     def test_shows_units_and_physical_values(self):
         data = self.json("get", "maximum-positioning-speed")
         self.assertEqual((4, 1000, "internal velocity"), (data["number"], data["value"], data["unit"]))
-        self.assertIn("rpm", data["physical"])
+        self.assertEqual("30517.6 microsteps/s = 35.76 rpm", data["physical"])
+        self.assertEqual("0 microsteps = 0 turns\n", self.expect(0, "get", "actual-position").stdout)
+        self.assertEqual("set to 100 = 1098 mA\n", self.expect(0, "set", "maximum-current", "100").stderr)
 
     def test_writes_parameters(self):
         self.expect(0, "set", "maximum-current", "100")

@@ -1,0 +1,129 @@
+#include "lang/operand_meaning.hpp"
+
+#include <cstdint>
+
+#include "firmware/spec/axis_parameters.hpp"
+#include "firmware/spec/global_parameters.hpp"
+#include "firmware/spec/interrupts.hpp"
+#include "firmware/spec/io_ports.hpp"
+#include "firmware/spec/lookup.hpp"
+#include "lang/instruction_table.hpp"
+
+namespace opentmcl::lang {
+namespace {
+
+const AxisParameterSpec* find_axis_parameter(std::uint8_t number, const ModuleDescription& module) {
+  const std::uint8_t row = axis_parameter_rows[number];
+  if (row == no_row || axis_parameters[row].in(module.id).access == Access::none) return nullptr;
+  return &axis_parameters[row];
+}
+
+const GlobalParameterSpec* find_module_setting(std::uint8_t number, const ModuleDescription& module) {
+  const std::uint8_t row = global_parameter_rows[number];
+  if (row == no_row || global_parameters[row].in(module.id).access == Access::none) return nullptr;
+  return &global_parameters[row];
+}
+
+const InterruptSpec* find_interrupt(std::uint8_t number, const ModuleDescription& module) {
+  const std::uint8_t row = interrupt_row_in(module.id, number);
+  return row == no_row ? nullptr : &interrupts[row];
+}
+
+const IoPortSpec* find_port(std::uint8_t port, std::uint8_t bank, const ModuleDescription& module) {
+  for (const IoPortSpec& row : io_ports) {
+    if (row.port == port && static_cast<std::uint8_t>(row.bank) == bank && contains(row.modules, module.id)) {
+      return &row;
+    }
+  }
+  return nullptr;
+}
+
+Unit unit_of_global_parameter(const Command& command, const ModuleDescription& module) {
+  switch (static_cast<Bank>(command.motor)) {
+    case Bank::module_settings:
+      if (const GlobalParameterSpec* const row = find_module_setting(command.type, module)) return row->unit;
+      break;
+    case Bank::interrupt_settings:
+      if (const InterruptSpec* const row = find_interrupt(command.type, module)) {
+        return row->setting == InterruptSetting::period ? Unit::milliseconds : Unit::none;
+      }
+      break;
+    case Bank::customer:
+    case Bank::user_variables:
+      break;
+  }
+  return Unit::none;
+}
+
+std::string_view name_of_global_parameter(const Command& command, const ModuleDescription& module) {
+  switch (static_cast<Bank>(command.motor)) {
+    case Bank::module_settings:
+      if (const GlobalParameterSpec* const row = find_module_setting(command.type, module)) return row->name;
+      break;
+    case Bank::interrupt_settings:
+      if (const InterruptSpec* const row = find_interrupt(command.type, module)) return row->name;
+      break;
+    case Bank::customer:
+    case Bank::user_variables:
+      break;
+  }
+  return {};
+}
+
+/// The unit of what `SAP`, `SGP` and their like write.
+Unit unit_of_value(const Command& command, const ModuleDescription& module) {
+  switch (static_cast<Opcode>(command.opcode)) {
+    case Opcode::sap:
+      if (const AxisParameterSpec* const row = find_axis_parameter(command.type, module)) return row->unit;
+      break;
+    case Opcode::sgp:
+      return unit_of_global_parameter(command, module);
+    default:
+      break;
+  }
+  return Unit::none;
+}
+
+bool moves_to_coordinate(const Command& command) {
+  return command.opcode == static_cast<std::uint8_t>(Opcode::mvp) &&
+         command.type == find_word(OperandKind::mvp_mode, "COORD");
+}
+
+}  // namespace
+
+Unit unit_of_operand(const OperandSpec& operand, const Command& command, const ModuleDescription& module) {
+  switch (operand.kind) {
+    case OperandKind::velocity:
+      return Unit::internal_velocity;
+    case OperandKind::position:
+      return moves_to_coordinate(command) ? Unit::none : Unit::microsteps;
+    case OperandKind::ticks:
+      // -1 is no time: it takes the accumulator.
+      return command.value < 0 ? Unit::none : Unit::ten_milliseconds;
+    case OperandKind::value:
+      return unit_of_value(command, module);
+    default:
+      return Unit::none;
+  }
+}
+
+std::string_view name_of_operand(const OperandSpec& operand, const Command& command, const ModuleDescription& module) {
+  switch (operand.kind) {
+    case OperandKind::axis_parameter:
+      if (const AxisParameterSpec* const row = find_axis_parameter(command.type, module)) return row->name;
+      break;
+    case OperandKind::global_parameter:
+      return name_of_global_parameter(command, module);
+    case OperandKind::port:
+      if (const IoPortSpec* const row = find_port(command.type, command.motor, module)) return row->description;
+      break;
+    case OperandKind::interrupt:
+      if (const InterruptSpec* const row = find_interrupt(command.type, module)) return row->name;
+      break;
+    default:
+      break;
+  }
+  return {};
+}
+
+}  // namespace opentmcl::lang
