@@ -86,10 +86,13 @@ RULES = (
         ("client", "lang", "scenario", "boards/twin", "twin", "firmware/hal", "firmware/spec", "firmware/wire"),
         ANY_SYSTEM_HEADER,
     ),
-    Rule("apps", ("firmware", "boards/twin", "twin", "lang", "scenario", "client", "server"), ANY_SYSTEM_HEADER),
+    # Servers that an editor starts. What they share knows no protocol above JSON messages.
+    Rule("editor", (), ANY_SYSTEM_HEADER),
+    Rule("editor/lsp", ("editor/message_*.hpp", "lang", "firmware/spec"), ANY_SYSTEM_HEADER),
+    Rule("apps", ("firmware", "boards/twin", "twin", "lang", "scenario", "client", "server", "editor"), ANY_SYSTEM_HEADER),
     Rule(
         "tests",
-        ("firmware", "boards/twin", "twin", "lang", "scenario", "client", "server", "apps"),
+        ("firmware", "boards/twin", "twin", "lang", "scenario", "client", "server", "editor", "apps"),
         ANY_SYSTEM_HEADER,
     ),
 )
