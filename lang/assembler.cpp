@@ -14,7 +14,6 @@
 #include "lang/names.hpp"
 #include "lang/statement.hpp"
 #include "lang/suggestion.hpp"
-#include "lang/symbol_table.hpp"
 
 namespace opentmcl::lang {
 namespace {
@@ -344,6 +343,7 @@ class Assembler {
       assembly.program->source_map = std::move(source_map_);
     }
     assembly.diagnostics = diagnostics_.take_sorted();
+    assembly.symbols = std::move(symbols_);
     assembly.sources = std::move(sources_);
     return assembly;
   }

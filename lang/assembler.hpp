@@ -18,6 +18,7 @@
 #include "lang/file_provider.hpp"
 #include "lang/program.hpp"
 #include "lang/source.hpp"
+#include "lang/symbol_table.hpp"
 
 namespace opentmcl::lang {
 
@@ -32,7 +33,8 @@ struct AssemblerOptions {
 struct AssemblyResult {
   std::optional<Program> program;  ///< none if there is an error
   std::vector<Diagnostic> diagnostics;
-  Sources sources;  ///< what all spans refer to; file 0 is the one given
+  Sources sources;      ///< what all spans refer to; file 0 is the one given
+  SymbolTable symbols;  ///< constants and labels, also when there is an error; their names are texts of `sources`
 };
 
 /// `file_name` is for messages and for finding included files; the text of the file is `text`.
