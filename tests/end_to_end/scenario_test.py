@@ -11,7 +11,8 @@ import tmcl_host
 from tmcl_host import TemporaryFolderTest
 
 PROJECT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-EXAMPLES = sorted(glob.glob(os.path.join(PROJECT, "examples", "scenarios", "*.toml")))
+EXAMPLES = sorted(path for path in glob.glob(os.path.join(PROJECT, "examples", "*s", "*.toml"))
+                  if not path.endswith(".farm.toml"))
 
 MOVE = """
 duration = "600 ms"
