@@ -98,6 +98,14 @@ void ScenarioRun::move(twin::World& world, Microseconds now) {
   std::erase_if(ramps_, [now](const Ramp& ramp) { return now - ramp.begin >= ramp.duration; });
 }
 
+/// What a quantity goes back to: a pulse that begins while another one is under way prolongs it.
+double ScenarioRun::value_without_pulse(const twin::Quantity& quantity, const twin::World& world) const {
+  for (const PulseEnd& pulse : pulses_) {
+    if (pulse.former.quantity == &quantity) return pulse.former.value;
+  }
+  return quantity.read(world);
+}
+
 void ScenarioRun::happen(const Event& event, VirtualModule& module, Microseconds now) {
   twin::World& world = module.world();
   if (!event.note.empty()) report(Report::Kind::note, event.place, now, event.note);
@@ -112,8 +120,9 @@ void ScenarioRun::happen(const Event& event, VirtualModule& module, Microseconds
     write(world, assignment);
   }
   for (const Assignment& assignment : event.pulse) {
+    const double former = value_without_pulse(*assignment.quantity, world);
     take_over(assignment);
-    pulses_.push_back({{assignment.quantity, assignment.quantity->read(world)}, now + event.lasting});
+    pulses_.push_back({{assignment.quantity, former}, now + event.lasting});
     write(world, assignment);
   }
   for (const Assignment& assignment : event.ramp) {

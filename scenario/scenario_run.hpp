@@ -82,6 +82,7 @@ class ScenarioRun final : public BenchActor {
 
   bool looks_regularly() const;
   void move(twin::World& world, Microseconds now);
+  double value_without_pulse(const twin::Quantity& quantity, const twin::World& world) const;
   void happen(const Event& event, VirtualModule& module, Microseconds now);
   void wait_for(WaitingEvent& waiting, VirtualModule& module, Microseconds now);
   void send_pending(VirtualModule& module);

@@ -124,6 +124,26 @@ TEST(ScenarioRun, LetsAPulseEndAtTheFormerValue) {
   EXPECT_EQ(bench.value_of("temperature"), 25);
 }
 
+TEST(ScenarioRun, ProlongsAPulseThatComesAgainWhileItLasts) {
+  Bench bench(R"(
+    duration = "1 s"
+    [[event]]
+    at = "100 ms"
+    pulse = { temperature = 90 }
+    lasting = "30 ms"
+    [[event]]
+    at = "120 ms"
+    pulse = { temperature = 80 }
+    lasting = "30 ms"
+  )");
+  bench.advance_to(120'000);
+  EXPECT_EQ(bench.value_of("temperature"), 80);
+  bench.advance_to(149'999);
+  EXPECT_EQ(bench.value_of("temperature"), 80);
+  bench.advance_to(150'000);
+  EXPECT_EQ(bench.value_of("temperature"), 25);
+}
+
 TEST(ScenarioRun, RampsEvenly) {
   Bench bench(R"(
     duration = "1 s"
