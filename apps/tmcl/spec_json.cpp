@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/tmcl/spec_words.hpp"
+#include "lang/expression.hpp"
 
 namespace opentmcl::app {
 
@@ -109,6 +110,14 @@ Json json_of(const IoPortSpec& port) {
           {"description", port.description}};
 }
 
+Json json_of_functions() {
+  Json rows = Json::array();
+  for (std::size_t i = 0; i < lang::function_count; ++i) {
+    rows.push_back({{"name", lang::functions[i].name}, {"description", lang::functions[i].description}});
+  }
+  return rows;
+}
+
 template <class Row, std::size_t count>
 Json json_of_table(const Row (&table)[count]) {
   Json rows = Json::array();
@@ -137,7 +146,8 @@ std::string spec_as_json() {
                   {"coordinates", {{"count", coordinate_count}}},
                   {"interrupts", json_of_table(interrupts)},
                   {"status_codes", json_of_table(status_codes)},
-                  {"io_ports", json_of_table(io_ports)}};
+                  {"io_ports", json_of_table(io_ports)},
+                  {"functions", json_of_functions()}};
   return spec.dump(2);
 }
 

@@ -4,6 +4,7 @@
 
 #include "apps/tmcl/spec_json.hpp"
 #include "apps/tmcl/spec_words.hpp"
+#include "lang/expression.hpp"
 
 namespace opentmcl::app {
 namespace {
@@ -19,6 +20,7 @@ TEST(Spec, HasEveryRowOfEveryTable) {
   EXPECT_EQ(interrupt_count, spec.at("interrupts").size());
   EXPECT_EQ(std::size(status_codes), spec.at("status_codes").size());
   EXPECT_EQ(io_port_count, spec.at("io_ports").size());
+  EXPECT_EQ(lang::function_count, spec.at("functions").size());
 }
 
 TEST(Spec, ShowsAParameterWithItsColumns) {
