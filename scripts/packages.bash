@@ -17,6 +17,9 @@ packages_to_check=(
   gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib
 )
 
+# Of Debian 12, Node.js 18 and npm 9. Who has an npm of another origin keeps it: see install_npm.
+packages_for_editors=(nodejs npm)
+
 # say MESSAGE…: what a script does goes to stderr; stdout belongs to the program it starts.
 say() {
   printf '%s\n' "$*" >&2
@@ -57,4 +60,11 @@ install_packages() {
   "${as_root[@]}" apt-get -qq update >/dev/null
   "${as_root[@]}" DEBIAN_FRONTEND=noninteractive \
     apt-get -qq install --yes --no-install-recommends -o Dpkg::Use-Pty=0 "${missing[@]}" >/dev/null
+}
+
+# install_npm REASON: Debian's, unless there is one.
+install_npm() {
+  if ! command -v npm >/dev/null; then
+    install_packages "$1" "${packages_for_editors[@]}"
+  fi
 }

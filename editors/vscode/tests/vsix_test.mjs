@@ -1,0 +1,142 @@
+// What is in the package that users install.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { readFileSync } from 'node:fs';
+import Module, { createRequire } from 'node:module';
+import { join } from 'node:path';
+import test from 'node:test';
+import { makePackage, output, tmcl } from '../scripts/package.mjs';
+import { unpackedExtension } from './package.mjs';
+
+const files = await unpackedExtension();
+const manifest = JSON.parse(files.get('extension/package.json'));
+
+test('the package holds what users need and nothing of the development', () => {
+  assert.deepEqual([...files.keys()].sort(), [
+    '[Content_Types].xml',
+    'extension.vsixmanifest',
+    'extension/LICENSE.txt',
+    'extension/README.md',
+    'extension/extension.js',
+    'extension/language-configuration.json',
+    'extension/package.json',
+    'extension/snippets.json',
+    'extension/third-party-notices.txt',
+    'extension/tmcl.tmLanguage.json',
+  ]);
+  for (const key of ['scripts', 'devDependencies', 'dependencies']) assert.ok(!(key in manifest), key);
+});
+
+test('licences of bundled packages are shown', () => {
+  const notices = files.get('extension/third-party-notices.txt');
+  for (const name of ['vscode-languageclient', 'vscode-jsonrpc', 'semver', 'minimatch']) {
+    assert.match(notices, new RegExp(`^${name} \\d`, 'm'));
+  }
+});
+
+test('every file that the manifest names is there', () => {
+  const { grammars, languages, snippets } = manifest.contributes;
+  const named = [manifest.main, languages[0].configuration, grammars[0].path, snippets[0].path];
+  for (const path of named) assert.ok(files.has(join('extension', path)), path);
+  for (const [, path] of files.get('extension.vsixmanifest').matchAll(/ Path="([^"]*)"/g)) {
+    assert.ok(files.has(path), path);
+  }
+});
+
+test('the manifest of the package agrees with that of the extension', () => {
+  const [, id, version, publisher] = files
+    .get('extension.vsixmanifest')
+    .match(/<Identity Language="en-US" Id="([^"]*)" Version="([^"]*)" Publisher="([^"]*)"\/>/);
+  assert.deepEqual([id, version, publisher], [manifest.name, manifest.version, manifest.publisher]);
+  assert.match(files.get('extension.vsixmanifest'), /Code\.Engine" Value="\^1\.82\.0"/);
+});
+
+test('every kind of file has a content type', () => {
+  const types = files.get('[Content_Types].xml');
+  for (const path of files.keys()) {
+    if (path === '[Content_Types].xml') continue;
+    assert.ok(types.includes(`Extension="${path.slice(path.lastIndexOf('.'))}"`), path);
+  }
+});
+
+test('the version is that of tmcl', () => {
+  const version = execFileSync(tmcl, ['version'], { encoding: 'utf8' });
+  assert.ok(version.includes(manifest.version), version);
+});
+
+test('the modules to choose from are those of tmcl', () => {
+  const modules = JSON.parse(execFileSync(tmcl, ['spec', '--json'], { encoding: 'utf8', maxBuffer: 1 << 26 })).modules;
+  const names = modules.map((module) => module.argument).sort();
+  const { launch, attach } = manifest.contributes.debuggers[0].configurationAttributes;
+  for (const choice of [manifest.contributes.configuration.properties['tmcl.module'], launch.properties.module, attach.properties.module]) {
+    assert.deepEqual([...choice.enum].sort(), names);
+  }
+});
+
+test('configurations that are offered have no attribute that the schema does not know', () => {
+  const { configurationAttributes, configurationSnippets, initialConfigurations } = manifest.contributes.debuggers[0];
+  const common = ['type', 'request', 'name'];
+  for (const configuration of [...initialConfigurations, ...configurationSnippets.map((row) => row.body)]) {
+    const { properties, required } = configurationAttributes[configuration.request];
+    for (const key of Object.keys(configuration)) assert.ok(common.includes(key) || key in properties, key);
+    for (const key of required) assert.ok(key in configuration, key);
+  }
+});
+
+test('the same sources give the same bytes', async () => {
+  const first = readFileSync(await makePackage());
+  assert.deepEqual(readFileSync(await makePackage()), first);
+});
+
+test('the extension loads, and says what to do when there is no tmcl', async () => {
+  const messages = [];
+  const registered = [];
+  const settings = { path: 'no-such-program', module: 'pd1161' };
+  // As much of the editor as activation touches; everything else must not be touched, and is an error.
+  const vscode = strict('vscode', {
+    commands: strict('commands', { registerCommand: (id) => registered.push(id) && disposable() }),
+    debug: strict('debug', {
+      registerDebugAdapterDescriptorFactory: (type) => registered.push(`adapter ${type}`) && disposable(),
+      registerDebugConfigurationProvider: (type) => registered.push(`configurations ${type}`) && disposable(),
+    }),
+    window: strict('window', { showErrorMessage: async (message) => void messages.push(message) }),
+    workspace: strict('workspace', {
+      workspaceFolders: [],
+      getConfiguration: () => ({ get: (key, otherwise) => settings[key] ?? otherwise }),
+      onDidChangeConfiguration: () => disposable(),
+    }),
+    DebugConfigurationProviderTriggerKind: { Initial: 1, Dynamic: 2 },
+  });
+  const extension = load(vscode);
+  await extension.activate({ subscriptions: [] });
+  assert.equal(messages.length, 1);
+  assert.match(messages[0], /'no-such-program' was not found.*\.\/run --build-only.*tmcl\.path/);
+  assert.deepEqual(registered, ['tmcl.restartServer', 'adapter tmcl', 'configurations tmcl', 'configurations tmcl']);
+  assert.deepEqual(manifest.contributes.commands.map((row) => row.command), ['tmcl.restartServer']);
+  await extension.deactivate();
+});
+
+function disposable() {
+  return { dispose() {} };
+}
+
+function strict(what, content) {
+  return new Proxy(content, {
+    get(target, key) {
+      if (key in target || typeof key === 'symbol') return target[key];
+      // Classes that the language client derives from when it is loaded.
+      return class {};
+    },
+  });
+}
+
+/** Loads extension.js with `vscode` in the place of the editor's. */
+function load(vscode) {
+  const loader = Module._load;
+  Module._load = (request, ...others) => (request === 'vscode' ? vscode : loader(request, ...others));
+  try {
+    return createRequire(import.meta.url)(join(output, 'extension/extension.js'));
+  } finally {
+    Module._load = loader;
+  }
+}
