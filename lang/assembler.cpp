@@ -7,13 +7,17 @@
 
 #include "lang/encoder.hpp"
 #include "lang/expression.hpp"
+#include "lang/hexadecimal.hpp"
 #include "lang/include_files.hpp"
 #include "lang/include_search.hpp"
 #include "lang/instruction_table.hpp"
 #include "lang/lexer.hpp"
 #include "lang/names.hpp"
+#include "lang/program_check.hpp"
 #include "lang/statement.hpp"
+#include "lang/substitute.hpp"
 #include "lang/suggestion.hpp"
+#include "lang/switched_off.hpp"
 
 namespace opentmcl::lang {
 namespace {
@@ -52,20 +56,38 @@ std::string_view without_quotes(std::string_view name) {
   return name;
 }
 
+/// Whether a text is UTF-16, by its byte order mark or by its first two characters.
+bool is_utf16(std::string_view text) {
+  if (text.size() < 4) return false;
+  const std::string_view mark = text.substr(0, 2);
+  if (mark == "\xFF\xFE" || mark == "\xFE\xFF") return true;
+  const auto is_ascii_pair = [&](std::size_t zero, std::size_t letter) {
+    return text[zero] == '\0' && text[zero + 2] == '\0' && text[letter] != '\0' && text[letter + 2] != '\0';
+  };
+  return is_ascii_pair(1, 0) || is_ascii_pair(0, 1);
+}
+
+std::string too_large_text() {
+  return " is larger than " + std::to_string(maximum_text_size >> 20) + " MiB";
+}
+
 class Assembler {
  public:
   Assembler(const AssemblerOptions& options, FileProvider& files)
-      : options_(&options), files_(&files), encoder_(*options.module, diagnostics_) {}
+      : options_(&options),
+        files_(&files),
+        diagnostics_(options.switched_off),
+        encoder_(*options.module, diagnostics_) {}
 
-  AssemblyResult assemble(std::string_view file_name, std::string_view text) {
+  AssemblyResult assemble(std::string_view file_name, std::string text) {
     if (text.size() > maximum_text_size) {
       sources_.add(std::string(file_name), "");
-      diagnostics_.add(DiagnosticKind::file_too_large, {}, "the file is larger than 1 GiB");
+      diagnostics_.add(DiagnosticKind::file_too_large, {}, "the file" + too_large_text());
     } else {
       const std::size_t lines = std::min(text.size() / usual_line_length, maximum_guess);
       commands_.reserve(lines);
       source_map_.reserve(lines);
-      read_text(sources_.add(std::string(file_name), std::string(text)));
+      read_text(sources_.add(std::string(file_name), std::move(text)));
       finish();
     }
     return result();
@@ -74,7 +96,7 @@ class Assembler {
   /// Defines the constants of the built-in files.
   void define_built_in_constants() {
     for (const char* name : {parameter_file_name, interrupt_file_name}) {
-      read_text(sources_.add(name, *built_in_file(name, *options_->module)));
+      read_text(sources_.add(name, *built_in_file(name, *options_->module), true));
     }
   }
 
@@ -103,11 +125,19 @@ class Assembler {
  private:
   void read_text(FileId file) {
     const Text text = text_of(file);
+    total_size_ += text.characters.size();
+    if (is_utf16(text.characters)) return report_not_text({file, 0, 0}, "it is UTF-16: save it as UTF-8");
     open_files_.push_back(file);
     Lexer lexer(text.characters);
     Statement statement;
     while (!lexer.at_end()) {
       read_statement(lexer, statement);
+      if (is_binary(statement, text)) {
+        report_not_text(text.span_of(statement.name),
+                        "it has the byte " + hexadecimal(static_cast<std::uint8_t>(text.of(statement.name).front())) +
+                            "h: is it a program that is assembled already?");
+        break;
+      }
       handle(statement, text);
     }
     open_files_.pop_back();
@@ -141,12 +171,28 @@ class Assembler {
     }
   }
 
+  /// Nothing more is read of such a file, because all of it would be an error.
+  static bool is_binary(const Statement& statement, const Text& text) {
+    if (statement.kind != StatementKind::invalid_token) return false;
+    const Token& token = statement.name;
+    return token.kind == TokenKind::unexpected_character &&
+           static_cast<unsigned char>(text.of(token).front()) < static_cast<unsigned char>(' ');
+  }
+
+  void report_not_text(Span span, const std::string& reason) {
+    diagnostics_.add(DiagnosticKind::not_text, span, "this is no source text; " + reason);
+  }
+
   void report_invalid(const Token& token, const Text& text) {
     const std::string written = in_quotes(text.of(token));
     const Span span = text.span_of(token);
     if (token.kind == TokenKind::malformed_number) {
       diagnostics_.add(DiagnosticKind::malformed_number, span, written + " is not a number",
                        "numbers: 10, 1.5, 1e3, $FF hexadecimal, %1010 binary");
+    } else if (token.kind == TokenKind::line_too_long) {
+      diagnostics_.add(DiagnosticKind::line_too_long, {text.file, token.offset, 0},
+                       "a line with " + std::to_string(token.length) + " bytes of code; at most " +
+                           std::to_string(maximum_line_length) + " are read");
     } else if (token.kind == TokenKind::number_too_large) {
       diagnostics_.add(DiagnosticKind::number_too_large, span, written + " is too large");
     } else {
@@ -202,18 +248,20 @@ class Assembler {
         if (row.mnemonic != nullptr) suggestion.consider(row.mnemonic);
       }
       diagnostics_.add(DiagnosticKind::unknown_instruction, text.span_of(name),
-                       "there is no instruction " + in_quotes(mnemonic), suggestion.text());
+                       "there is no instruction " + in_quotes(mnemonic), suggestion.text(), {},
+                       fix_of(suggestion, text.span_of(name)));
       return nullptr;
     }
     if (contains(instruction->modules, options_->module->id)) return instruction;
-    std::string owners;
+    std::string note;
     for (const ModuleDescription& module : modules) {
       if (!contains(instruction->modules, module.id)) continue;
-      owners += (owners.empty() ? "only on the " : " and the ") + describe(module);
+      note += (note.empty() ? "only on the " : " and the ") + describe(module);
     }
+    if (const char* const substitute = substitute_for(instruction->opcode)) note += std::string("; ") + substitute;
     diagnostics_.add(DiagnosticKind::instruction_not_available, text.span_of(name),
                      std::string(instruction->mnemonic) + " is not available on the " + describe(*options_->module),
-                     owners);
+                     note);
     return nullptr;
   }
 
@@ -249,27 +297,31 @@ class Assembler {
         search_include(name, including_file, options_->include_path, *options_->module, *files_);
     switch (found.state) {
       case FileContent::State::found:
-        return include_text(std::move(found.path), std::move(found.text), place);
+        return include_text(std::move(found), place);
       case FileContent::State::missing:
         diagnostics_.add(DiagnosticKind::file_not_found, place, "there is no file " + in_quotes(name), found.note);
         return;
       case FileContent::State::unreadable:
         diagnostics_.add(DiagnosticKind::file_not_readable, place, in_quotes(found.path) + " cannot be read");
         return;
+      case FileContent::State::too_large:
+        diagnostics_.add(DiagnosticKind::file_too_large, place, in_quotes(found.path) + too_large_text());
+        return;
     }
   }
 
-  void include_text(std::string path, std::string text, Span place) {
+  void include_text(IncludeSearchResult found, Span place) {
     for (const FileId open : open_files_) {
-      if (!is_same_path(sources_[open].name, path)) continue;
-      diagnostics_.add(DiagnosticKind::include_cycle, place, in_quotes(path) + " includes itself");
+      if (!is_same_path(sources_[open].name, found.path)) continue;
+      diagnostics_.add(DiagnosticKind::include_cycle, place, in_quotes(found.path) + " includes itself");
       return;
     }
-    if (text.size() > maximum_text_size) {
-      diagnostics_.add(DiagnosticKind::file_too_large, place, in_quotes(path) + " is larger than 1 GiB");
+    if (total_size_ + found.text.size() > maximum_text_size) {
+      diagnostics_.add(DiagnosticKind::file_too_large, place,
+                       "with " + in_quotes(found.path) + " the source" + too_large_text());
       return;
     }
-    read_text(sources_.add(std::move(path), std::move(text)));
+    read_text(sources_.add(std::move(found.path), std::move(found.text), found.is_built_in));
   }
 
   // ---- the end
@@ -278,8 +330,11 @@ class Assembler {
     finish_fixups();
     finish_constants();
     if (options_->append_stop) append_stop();
-    if (!diagnostics_.has_errors()) check_labels();
     check_capacity();
+    if (options_->check_program && !diagnostics_.has_errors()) {
+      check_program({commands_, source_map_, symbols_, sources_, *options_->module}, diagnostics_);
+    }
+    find_unknown_warnings(sources_, diagnostics_);
   }
 
   void finish_fixups() {
@@ -313,15 +368,6 @@ class Assembler {
     source_map_.push_back({0, static_cast<std::uint32_t>(sources_[0].text.size()), 0});
   }
 
-  void check_labels() {
-    for (const Symbol& symbol : symbols_.symbols()) {
-      const bool after_end = symbol.kind == SymbolKind::label && symbol.value >= static_cast<double>(commands_.size());
-      if (!after_end) continue;
-      diagnostics_.add(DiagnosticKind::label_after_end, symbol.span,
-                       "no instruction follows the label " + in_quotes(symbol.name));
-    }
-  }
-
   void check_capacity() {
     const std::size_t capacity = options_->module->program_capacity;
     if (!options_->check_capacity || commands_.size() <= capacity) return;
@@ -332,25 +378,35 @@ class Assembler {
 
   AssemblyResult result() {
     AssemblyResult assembly;
-    if (!diagnostics_.has_errors()) {
-      assembly.program.emplace();
-      for (const Symbol& symbol : symbols_.symbols()) {
-        if (symbol.kind != SymbolKind::label) continue;
-        const auto address = static_cast<std::uint32_t>(symbol.value);
-        assembly.program->labels.push_back({std::string(symbol.name), address, symbol.span});
+    assembly.diagnostics = without_switched_off(diagnostics_.take_sorted(), sources_);
+    if (options_->warnings_as_errors) {
+      for (Diagnostic& diagnostic : assembly.diagnostics) {
+        diagnostic.is_warning_as_error = severity_of(diagnostic.kind) == Severity::warning;
       }
-      assembly.program->commands = std::move(commands_);
-      assembly.program->source_map = std::move(source_map_);
     }
-    assembly.diagnostics = diagnostics_.take_sorted();
+    if (count(assembly.diagnostics).errors == 0) assembly.program = program();
     assembly.symbols = std::move(symbols_);
     assembly.sources = std::move(sources_);
     return assembly;
   }
 
+  Program program() {
+    Program program;
+    for (const Symbol& symbol : symbols_.symbols()) {
+      if (symbol.kind == SymbolKind::label) {
+        program.labels.push_back({std::string(symbol.name), static_cast<std::uint32_t>(symbol.value), symbol.span});
+      } else {
+        program.constants.push_back({std::string(symbol.name), symbol.value, symbol.span});
+      }
+    }
+    program.commands = std::move(commands_);
+    program.source_map = std::move(source_map_);
+    return program;
+  }
+
   Text text_of(FileId file) const { return {file, sources_[file].text}; }
 
-  Scope scope_of(const Text& text, std::size_t visible_constants) const {
+  Scope scope_of(const Text& text, std::size_t visible_constants) {
     return {text.file, text.characters, &symbols_, visible_constants};
   }
 
@@ -365,13 +421,14 @@ class Assembler {
   std::vector<Fixup> fixups_;
   std::vector<Span> undefined_in_constants_;  // names in values of constants, not known where they stand
   std::vector<FileId> open_files_;
+  std::size_t total_size_ = 0;  // of all texts, in bytes
 };
 
 }  // namespace
 
-AssemblyResult assemble(std::string_view file_name, std::string_view text, const AssemblerOptions& options,
+AssemblyResult assemble(std::string_view file_name, std::string text, const AssemblerOptions& options,
                         FileProvider& files) {
-  return Assembler(options, files).assemble(file_name, text);
+  return Assembler(options, files).assemble(file_name, std::move(text));
 }
 
 InstructionResult parse_instruction(std::string_view text, const ModuleDescription& module) {

@@ -26,8 +26,13 @@ struct AssemblerOptions {
   const ModuleDescription* module = &pd1161;
   bool append_stop = true;     ///< unless the last instruction is STOP
   bool check_capacity = true;  ///< an error if the program does not fit the module
-  std::vector<std::string> include_path =
-      {};  ///< folders, after the including file's own and before the built-in files
+  /// Folders, after the including file's own and before the built-in files.
+  std::vector<std::string> include_path = {};
+  /// Warnings nobody wants to see. A source can switch off more of them: lang/switched_off.hpp.
+  DiagnosticKinds switched_off = {};
+  bool warnings_as_errors = false;
+  /// Whether the whole program is looked at, too: lang/program_check.hpp.
+  bool check_program = true;
 };
 
 struct AssemblyResult {
@@ -38,7 +43,7 @@ struct AssemblyResult {
 };
 
 /// `file_name` is for messages and for finding included files; the text of the file is `text`.
-AssemblyResult assemble(std::string_view file_name, std::string_view text, const AssemblerOptions& options,
+AssemblyResult assemble(std::string_view file_name, std::string text, const AssemblerOptions& options,
                         FileProvider& files);
 
 struct InstructionResult {

@@ -54,7 +54,8 @@ inline AssemblyResult assemble_text(std::string_view text, const ModuleDescripti
   AssemblerOptions options;
   options.module = &module;
   options.append_stop = append_stop;
-  return assemble("test.tmc", text, options, files);
+  options.check_program = false;  // the tests' sources are parts of programs
+  return assemble("test.tmc", std::string(text), options, files);
 }
 
 /// The instructions of a source that must have no diagnostics.

@@ -36,15 +36,6 @@ constexpr RowIndex axis_parameter_rows = make_row_index(axis_parameters);
 constexpr RowIndex global_parameter_rows = make_row_index(global_parameters);
 constexpr RowIndex interrupt_rows = make_row_index(interrupts);
 
-/// Word values, read from the tables by their words.
-consteval int value_of_word(OperandKind kind, std::string_view word) {
-  const KeywordSet set = keywords_of(kind);
-  for (std::size_t i = 0; i < set.count; ++i) {
-    if (set.words[i].word == word) return set.words[i].value;
-  }
-  return -1;
-}
-
 constexpr int move_to_coordinate = value_of_word(OperandKind::mvp_mode, "COORD");
 constexpr int wait_for_ticks = value_of_word(OperandKind::wait_event, "TICKS");
 static_assert(move_to_coordinate >= 0 && wait_for_ticks >= 0);

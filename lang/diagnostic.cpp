@@ -56,149 +56,117 @@ std::size_t characters(std::string_view utf8) {
   return utf8.size() - static_cast<std::size_t>(continuations);
 }
 
-/// The source line and the line of carets.
-std::string excerpt(Span span, const LineIndex& lines, const Position& position) {
-  const std::string_view line = lines.line(position.line);
-  const std::size_t from = std::min<std::size_t>(span.offset - lines.start_of(position.line), line.size());
-  std::size_t begin = 0;
-  std::size_t end = line.size();
-  if (line.size() > shown_line_length) {
-    begin = from > shown_before_span ? from - shown_before_span : 0;
-    while (begin < from && is_continuation(line[begin])) ++begin;
-    end = std::max(from, std::min(line.size(), begin + shown_line_length));
-  }
-  const std::size_t to = std::min<std::size_t>(from + span.length, end);
-  const std::string before = printable(line.substr(begin, from - begin));
-  const std::string marked = printable(line.substr(from, to - from));
-  const std::string after = printable(line.substr(to, end - to));
-  const std::string_view left = begin > 0 ? "..." : "";
-  const std::string_view right = end < line.size() ? "..." : "";
-  std::string result;
-  result.append(left).append(before).append(marked).append(after).append(right).append("\n");
-  result.append(blanks(left)).append(blanks(before)).append("^");
-  result.append(std::max<std::size_t>(characters(marked), 1) - 1, '~').append("\n");
-  return result;
-}
+/// Escape sequences of terminals: bold, and the colours compilers use.
+struct Palette {
+  const char* place = "";
+  const char* error = "";
+  const char* warning = "";
+  const char* note = "";
+  const char* message = "";
+  const char* carets = "";
+  const char* end = "";
+};
 
-std::string heading(const Sources& sources, Span span, const Position& position) {
-  return printable(sources[span.file].name) + ":" + std::to_string(position.line) + ":" +
-         std::to_string(position.column) + ": ";
-}
+constexpr Palette terminal_palette{"\033[1m", "\033[1;31m", "\033[1;35m", "\033[1;36m",
+                                   "\033[1m", "\033[1;32m", "\033[0m"};
 
-std::string format(const Diagnostic& diagnostic, const Sources& sources, Lines& lines) {
-  const LineIndex& index = lines.of(diagnostic.span.file);
-  const Position position = index.position_of(diagnostic.span.offset);
-  std::string result = heading(sources, diagnostic.span, position);
-  if (diagnostic.severity() == Severity::error) {
-    result += "error: " + diagnostic.message;
-  } else {
-    result += "warning: " + diagnostic.message + " [" + name_of(diagnostic.kind) + "]";
+class Formatter {
+ public:
+  Formatter(const Sources& sources, FormatStyle style)
+      : sources_(&sources), lines_(sources), palette_(style.colours ? terminal_palette : Palette{}) {}
+
+  std::string format(const Diagnostic& diagnostic) {
+    const bool is_error = diagnostic.severity() == Severity::error;
+    const bool is_named = severity_of(diagnostic.kind) == Severity::warning;
+    std::string name;
+    if (is_named) name.append(" [").append(name_of(diagnostic.kind)).append("]");
+    std::string result =
+        at(diagnostic.span, is_error ? "error: " : "warning: ", is_error ? palette_.error : palette_.warning,
+           diagnostic.message, name);
+    if (diagnostic.related) {
+      result += at(*diagnostic.related, "note: ", palette_.note, diagnostic.note, {});
+    } else if (!diagnostic.note.empty()) {
+      result += coloured(palette_.note, "note: ") + diagnostic.note + "\n";
+    }
+    return result;
   }
-  result += '\n';
-  result += excerpt(diagnostic.span, index, position);
-  if (diagnostic.related) {
-    const LineIndex& related_index = lines.of(diagnostic.related->file);
-    const Position related = related_index.position_of(diagnostic.related->offset);
-    result += heading(sources, *diagnostic.related, related) + "note: " + diagnostic.note + "\n" +
-              excerpt(*diagnostic.related, related_index, related);
-  } else if (!diagnostic.note.empty()) {
-    result += "note: " + diagnostic.note + "\n";
+
+ private:
+  /// The line with place and message, and the excerpt below it.
+  std::string at(Span span, const char* word, const char* colour, const std::string& message, const std::string& name) {
+    const LineIndex& index = lines_.of(span.file);
+    const Position position = index.position_of(span.offset);
+    const std::string place = printable((*sources_)[span.file].name) + ":" + std::to_string(position.line) + ":" +
+                              std::to_string(position.column) + ": ";
+    std::string result = coloured(palette_.place, place);
+    result += coloured(colour, word);
+    result += coloured(palette_.message, message);
+    result += name + "\n" + excerpt(span, index, position);
+    return result;
   }
-  return result;
-}
+
+  std::string coloured(const char* colour, const std::string& text) const {
+    return std::string(colour).append(text).append(palette_.end);
+  }
+
+  /// The source line and the line of carets.
+  std::string excerpt(Span span, const LineIndex& lines, const Position& position) const {
+    const std::string_view line = lines.line(position.line);
+    const std::size_t from = std::min<std::size_t>(span.offset - lines.start_of(position.line), line.size());
+    std::size_t begin = 0;
+    std::size_t end = line.size();
+    if (line.size() > shown_line_length) {
+      begin = from > shown_before_span ? from - shown_before_span : 0;
+      while (begin < from && is_continuation(line[begin])) ++begin;
+      end = std::max(from, std::min(line.size(), begin + shown_line_length));
+    }
+    const std::size_t to = std::min<std::size_t>(from + span.length, end);
+    const std::string before = printable(line.substr(begin, from - begin));
+    const std::string marked = printable(line.substr(from, to - from));
+    const std::string after = printable(line.substr(to, end - to));
+    const std::string_view left = begin > 0 ? "..." : "";
+    const std::string_view right = end < line.size() ? "..." : "";
+    std::string result;
+    result.append(left).append(before).append(marked).append(after).append(right).append("\n");
+    std::string carets(std::max<std::size_t>(characters(marked), 1), '~');
+    carets.front() = '^';
+    result.append(blanks(left)).append(blanks(before)).append(coloured(palette_.carets, carets)).append("\n");
+    return result;
+  }
+
+  const Sources* sources_;
+  Lines lines_;
+  Palette palette_;
+};
 
 }  // namespace
 
-const char* name_of(DiagnosticKind kind) {
-  switch (kind) {
-    case DiagnosticKind::unexpected_character:
-      return "unexpected-character";
-    case DiagnosticKind::malformed_number:
-      return "malformed-number";
-    case DiagnosticKind::number_too_large:
-      return "number-too-large";
-    case DiagnosticKind::expected_statement:
-      return "expected-statement";
-    case DiagnosticKind::unknown_directive:
-      return "unknown-directive";
-    case DiagnosticKind::missing_file_name:
-      return "missing-file-name";
-    case DiagnosticKind::file_not_found:
-      return "file-not-found";
-    case DiagnosticKind::file_not_readable:
-      return "file-not-readable";
-    case DiagnosticKind::file_too_large:
-      return "file-too-large";
-    case DiagnosticKind::include_cycle:
-      return "include-cycle";
-    case DiagnosticKind::too_many_includes:
-      return "too-many-includes";
-    case DiagnosticKind::unknown_instruction:
-      return "unknown-instruction";
-    case DiagnosticKind::instruction_not_available:
-      return "instruction-not-available";
-    case DiagnosticKind::wrong_operand_count:
-      return "wrong-operand-count";
-    case DiagnosticKind::expected_expression:
-      return "expected-expression";
-    case DiagnosticKind::unexpected_token:
-      return "unexpected-token";
-    case DiagnosticKind::missing_parenthesis:
-      return "missing-parenthesis";
-    case DiagnosticKind::unknown_function:
-      return "unknown-function";
-    case DiagnosticKind::undefined_name:
-      return "undefined-name";
-    case DiagnosticKind::used_before_definition:
-      return "used-before-definition";
-    case DiagnosticKind::division_by_zero:
-      return "division-by-zero";
-    case DiagnosticKind::undefined_result:
-      return "undefined-result";
-    case DiagnosticKind::expression_too_deep:
-      return "expression-too-deep";
-    case DiagnosticKind::invalid_word:
-      return "invalid-word";
-    case DiagnosticKind::not_encodable:
-      return "not-encodable";
-    case DiagnosticKind::duplicate_name:
-      return "duplicate-name";
-    case DiagnosticKind::program_too_large:
-      return "program-too-large";
-    case DiagnosticKind::not_one_instruction:
-      return "not-one-instruction";
-    case DiagnosticKind::too_many_problems:
-      return "too-many-problems";
-    case DiagnosticKind::operand_out_of_range:
-      return "operand-out-of-range";
-    case DiagnosticKind::no_such_motor:
-      return "no-such-motor";
-    case DiagnosticKind::no_such_parameter:
-      return "no-such-parameter";
-    case DiagnosticKind::parameter_not_accessible:
-      return "parameter-not-accessible";
-    case DiagnosticKind::parameter_out_of_range:
-      return "parameter-out-of-range";
-    case DiagnosticKind::label_after_end:
-      return "label-after-end";
-    case DiagnosticKind::too_many_warnings:
-      return "too-many-warnings";
+DiagnosticCounts count(const std::vector<Diagnostic>& diagnostics) {
+  DiagnosticCounts counts;
+  for (const Diagnostic& diagnostic : diagnostics) {
+    ++(diagnostic.severity() == Severity::error ? counts.errors : counts.warnings);
   }
-  return "";
+  return counts;
 }
 
-Severity severity_of(DiagnosticKind kind) {
-  return kind <= DiagnosticKind::too_many_problems ? Severity::error : Severity::warning;
+std::string summary(const DiagnosticCounts& counts) {
+  const auto counted = [](std::size_t number, const char* what) {
+    return number == 0 ? std::string() : std::to_string(number) + " " + what + (number == 1 ? "" : "s");
+  };
+  const std::string errors = counted(counts.errors, "error");
+  const std::string warnings = counted(counts.warnings, "warning");
+  return errors + (errors.empty() || warnings.empty() ? "" : ", ") + warnings;
 }
 
 void DiagnosticList::add(DiagnosticKind kind, Span span, std::string message, std::string note,
-                         std::optional<Span> related) {
+                         std::optional<Span> related, std::optional<Fix> fix) {
+  if (switched_off_[index_of(kind)]) return;
   const Severity severity = severity_of(kind);
   std::size_t& count = count_[static_cast<std::size_t>(severity)];
   if (count > maximum_count) return;
   ++count;
   if (count <= maximum_count) {
-    diagnostics_.push_back({kind, span, std::move(message), std::move(note), related});
+    diagnostics_.push_back({kind, span, std::move(message), std::move(note), related, std::move(fix)});
   } else if (severity == Severity::error) {
     diagnostics_.push_back({DiagnosticKind::too_many_problems, span, "too many errors; the rest is not shown", {}, {}});
   } else {
@@ -232,15 +200,14 @@ std::string in_quotes(std::string_view text) {
   return result;
 }
 
-std::string format(const Diagnostic& diagnostic, const Sources& sources) {
-  Lines lines(sources);
-  return format(diagnostic, sources, lines);
+std::string format(const Diagnostic& diagnostic, const Sources& sources, FormatStyle style) {
+  return Formatter(sources, style).format(diagnostic);
 }
 
-std::string format(const std::vector<Diagnostic>& diagnostics, const Sources& sources) {
-  Lines lines(sources);
+std::string format(const std::vector<Diagnostic>& diagnostics, const Sources& sources, FormatStyle style) {
+  Formatter formatter(sources, style);
   std::string result;
-  for (const Diagnostic& diagnostic : diagnostics) result += format(diagnostic, sources, lines);
+  for (const Diagnostic& diagnostic : diagnostics) result += formatter.format(diagnostic);
   return result;
 }
 

@@ -155,7 +155,8 @@ void report_undefined_name(Span span, std::string_view name, const SymbolTable& 
   if (symbols.symbols().size() <= maximum_suggested_names) {
     for (const Symbol& symbol : symbols.symbols()) suggestion.consider(symbol.name);
   }
-  diagnostics.add(DiagnosticKind::undefined_name, span, in_quotes(name) + " is not defined", suggestion.text());
+  diagnostics.add(DiagnosticKind::undefined_name, span, in_quotes(name) + " is not defined", suggestion.text(), {},
+                  fix_of(suggestion, span));
 }
 
 }  // namespace opentmcl::lang

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lang/names.hpp"
+#include "lang/suggestion.hpp"
 
 namespace opentmcl::lang {
 
@@ -115,7 +116,7 @@ class Evaluator {
   }
 
   double named(const Token& token) {
-    const Symbol* const symbol = scope_->symbols->find(token.text(scope_->text));
+    const Symbol* const symbol = scope_->symbols->use(token.text(scope_->text));
     if (symbol == nullptr) {
       state_ = State::undefined;
       return 0;
@@ -131,7 +132,10 @@ class Evaluator {
   double call(const Token& name) {
     const FunctionSpec* const function = find_function(name.text(scope_->text));
     if (function == nullptr) {
-      fail(DiagnosticKind::unknown_function, name, "there is no function " + quoted_text(name));
+      Suggestion suggestion(name.text(scope_->text));
+      for (std::size_t i = 0; i < function_count; ++i) suggestion.consider(functions[i].name);
+      fail(DiagnosticKind::unknown_function, name, "there is no function " + quoted_text(name), suggestion.text(), {},
+           fix_of(suggestion, scope_->span_of(name)));
       return 0;
     }
     const Token& open = *token_++;
@@ -181,10 +185,10 @@ class Evaluator {
 
   /// Only the first failure of an expression is reported.
   void fail(DiagnosticKind kind, const Token& token, std::string message, std::string note = {},
-            std::optional<Span> related = {}) {
+            std::optional<Span> related = {}, std::optional<Fix> fix = {}) {
     if (state_ != State::value) return;
     state_ = State::failed;
-    diagnostics_->add(kind, scope_->span_of(token), std::move(message), std::move(note), related);
+    diagnostics_->add(kind, scope_->span_of(token), std::move(message), std::move(note), related, std::move(fix));
   }
 
   const Token* first_;

@@ -41,8 +41,8 @@ struct Evaluation {
 /// What names mean where an expression stands.
 struct Scope {
   FileId file = 0;
-  std::string_view text;  ///< of that file
-  const SymbolTable* symbols = nullptr;
+  std::string_view text;           ///< of that file
+  SymbolTable* symbols = nullptr;  ///< names that are used are marked in it
   /// Constants of this index and above are defined further down and cannot be used here; labels can.
   std::size_t visible_constants = 0;
 

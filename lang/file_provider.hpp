@@ -8,13 +8,14 @@
 namespace opentmcl::lang {
 
 struct FileContent {
-  enum class State : std::uint8_t { found, missing, unreadable };
+  enum class State : std::uint8_t { found, missing, unreadable, too_large };
 
   State state = State::missing;
   std::string text;
 };
 
-/// Where included files come from. Real: DiskFiles. For tests and editors, whose buffers nobody has saved: MemoryFiles.
+/// Where included files come from; none is larger than `maximum_text_size`. Real: DiskFiles. For tests and editors,
+/// whose buffers nobody has saved: MemoryFiles.
 class FileProvider {
  public:
   virtual FileContent read(const std::string& path) = 0;

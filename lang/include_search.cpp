@@ -30,7 +30,7 @@ IncludeSearchResult search_include(std::string_view name, const std::string& inc
   }
 
   std::optional<std::string> text = built_in_file(name, module);
-  if (text) return {FileContent::State::found, std::string(name), std::move(*text), {}};
+  if (text) return {FileContent::State::found, std::string(name), std::move(*text), {}, true};
   return {FileContent::State::missing,
           {},
           {},

@@ -14,6 +14,7 @@ struct IncludeSearchResult {
   std::string path;  ///< of the file found or unreadable
   std::string text;
   std::string note;  ///< where a missing file was looked for
+  bool is_built_in = false;
 };
 
 /// Finds the file a source includes: in the folder of the including file, then in the folders of `include_path`, then

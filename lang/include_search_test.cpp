@@ -29,7 +29,7 @@ AssemblyResult assemble_with(MemoryFiles& files, std::string_view name, std::str
   AssemblerOptions options;
   options.append_stop = false;
   options.include_path = std::move(include_path);
-  return assemble(name, text, options, files);
+  return assemble(name, std::string(text), options, files);
 }
 
 TEST(Include, TakesTheTextOfTheFileInItsPlace) {

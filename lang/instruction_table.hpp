@@ -43,6 +43,15 @@ constexpr bool operands_are_optional(const InstructionSpec& instruction) {
 /// The value `word` stands for as an operand of this kind, or -1. Case does not matter.
 int find_word(OperandKind kind, std::string_view word);
 
+/// The same for constants of the program, in capital letters.
+consteval int value_of_word(OperandKind kind, std::string_view word) {
+  const KeywordSet set = keywords_of(kind);
+  for (std::size_t i = 0; i < set.count; ++i) {
+    if (set.words[i].word == word) return set.words[i].value;
+  }
+  return -1;
+}
+
 /// The word for a value of an operand of this kind, or nullptr if there is none.
 const char* word_of(OperandKind kind, std::int32_t value);
 

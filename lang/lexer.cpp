@@ -86,15 +86,17 @@ void Lexer::read_line(Tokens& tokens) {
   tokens.clear();
   // The cursor of the common tokens is a local variable, which the compiler can keep in a register.
   const char* at = cursor_;
-  while (at != end_) {
+  const char* const line = at;
+  const char* const end = static_cast<std::size_t>(end_ - at) > maximum_line_length ? at + maximum_line_length : end_;
+  while (at < end) {
     const char* const start = at;
     switch (class_of(*at)) {
       case CharacterClass::blank:
-        while (++at != end_ && class_of(*at) == CharacterClass::blank) {
+        while (++at != end && class_of(*at) == CharacterClass::blank) {
         }
         continue;
       case CharacterClass::name:
-        while (++at != end_ && is_name_or_digit(*at)) {
+        while (++at != end && is_name_or_digit(*at)) {
         }
         add(tokens, TokenKind::name, start, at);
         continue;
@@ -124,6 +126,11 @@ void Lexer::read_line(Tokens& tokens) {
         break;
     }
     break;
+  }
+  if (at >= end && at != end_ && class_of(*at) != CharacterClass::line_end) {
+    tokens.clear();
+    at = find_line_end(at, end_);
+    add(tokens, TokenKind::line_too_long, line, at);
   }
   add(tokens, TokenKind::end_of_line, at, at);
   cursor_ = find_line_end(at, end_);

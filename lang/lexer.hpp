@@ -7,6 +7,10 @@
 
 namespace opentmcl::lang {
 
+/// More code than this in one line, in bytes, is no TMCL; the limit keeps the memory a line needs in bounds. Comments
+/// may be longer.
+inline constexpr std::size_t maximum_line_length = 65536;
+
 /// Splits a text into tokens, line by line. Never fails: what is no token of the language becomes one that says so.
 ///
 /// Numbers: decimal with or without fraction and exponent, `$` hexadecimal, `%` binary. The last two are patterns of at
@@ -19,7 +23,8 @@ class Lexer {
 
   bool at_end() const { return cursor_ == end_; }
 
-  /// Replaces `tokens` by those of the next line. The last one is always `end_of_line`.
+  /// Replaces `tokens` by those of the next line. The last one is always `end_of_line`. A line that is too long is one
+  /// token.
   void read_line(Tokens& tokens);
 
  private:

@@ -22,8 +22,8 @@ std::size_t utf8_length(char lead) {
 
 }  // namespace
 
-FileId Sources::add(std::string name, std::string text) {
-  files_.push_back({std::move(name), std::move(text)});
+FileId Sources::add(std::string name, std::string text, bool is_built_in) {
+  files_.push_back({std::move(name), std::move(text), is_built_in});
   return static_cast<FileId>(files_.size() - 1);
 }
 

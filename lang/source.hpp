@@ -26,15 +26,16 @@ struct Span {
 struct SourceFile {
   std::string name;  ///< as the user would type it
   std::string text;
+  bool is_built_in = false;  ///< made from the tables: there is no such file
 };
 
-/// Offsets are 32 bit; a longer text is refused before it gets here.
-inline constexpr std::size_t maximum_text_size = 1U << 30;
+/// All texts of one run together, in bytes. A thousand times the largest program; keeps memory in bounds.
+inline constexpr std::size_t maximum_text_size = 64U << 20;
 
 /// All texts of one run. References to a file stay valid while others are added and when the whole is moved.
 class Sources {
  public:
-  FileId add(std::string name, std::string text);
+  FileId add(std::string name, std::string text, bool is_built_in = false);
 
   std::size_t size() const { return files_.size(); }
   const SourceFile& operator[](FileId file) const { return files_[file]; }

@@ -5,7 +5,7 @@ namespace {
 
 bool is_invalid(const Token& token) {
   return token.kind == TokenKind::unexpected_character || token.kind == TokenKind::malformed_number ||
-         token.kind == TokenKind::number_too_large;
+         token.kind == TokenKind::number_too_large || token.kind == TokenKind::line_too_long;
 }
 
 void split_at_commas(const Token* first, const Token* last, std::vector<TokenRange>& operands) {

@@ -27,6 +27,12 @@ std::string Suggestion::text() const {
   return best_.empty() ? "" : "did you mean " + std::string(best_) + "?";
 }
 
+std::optional<Fix> fix_of(const Suggestion& suggestion, Span wrong) {
+  if (suggestion.name().empty()) return std::nullopt;
+  const std::string name(suggestion.name());
+  return Fix{wrong, name, "change to " + name};
+}
+
 std::size_t edit_distance(std::string_view left, std::string_view right, std::size_t limit) {
   left = left.substr(0, compared_length);
   right = right.substr(0, compared_length);

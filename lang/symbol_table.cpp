@@ -18,6 +18,14 @@ const Symbol* SymbolTable::find(std::string_view name) const {
   return slot.number == 0 ? nullptr : &symbols_[slot.number - 1];
 }
 
+const Symbol* SymbolTable::use(std::string_view name) {
+  const Slot& slot = slots_[slot_of(name, hash_of_name(name))];
+  if (slot.number == 0) return nullptr;
+  Symbol& symbol = symbols_[slot.number - 1];
+  symbol.is_used = true;
+  return &symbol;
+}
+
 const Symbol* SymbolTable::insert(const Symbol& symbol) {
   const std::uint32_t hash = hash_of_name(symbol.name);
   std::size_t at = slot_of(symbol.name, hash);

@@ -16,6 +16,7 @@ struct Symbol {
   SymbolKind kind = SymbolKind::constant;
   double value = 0;  ///< of a label its address
   Span span;         ///< where it is defined
+  bool is_used = false;
 };
 
 /// Constants and labels by name, ignoring case. They share one set of names. Open addressing: one lookup touches the
@@ -29,6 +30,8 @@ class SymbolTable {
 
   /// The symbol of this name, or nullptr. Valid until the next `insert`.
   const Symbol* find(std::string_view name) const;
+  /// As `find`, and the symbol is one that something refers to.
+  const Symbol* use(std::string_view name);
   /// Adds a symbol unless the name is taken. Returns the one that has the name already, or nullptr if it was added.
   const Symbol* insert(const Symbol& symbol);
 

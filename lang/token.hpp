@@ -23,7 +23,8 @@ enum class TokenKind : std::uint8_t {
   unexpected_character,  ///< one character, all bytes of it
   malformed_number,
   number_too_large,
-  end_of_line,  ///< nothing, where the line or its comment ends
+  line_too_long,  ///< all of the line
+  end_of_line,    ///< nothing, where the line or its comment ends
 };
 
 /// A word or sign of a source; comments and blanks are none.

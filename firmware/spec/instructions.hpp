@@ -129,6 +129,9 @@ struct OperandSpec {
 
 inline constexpr std::size_t maximum_operands = 3;
 
+/// Subroutine calls that can be open at a time: further ones are ignored. Source: S0 3.7.20.
+inline constexpr std::uint8_t maximum_open_calls = 8;
+
 enum class Where : std::uint8_t {
   direct_and_program,
   program_only,  ///< direct mode answers "command not available" (docs/decisions/0006-program-only-commands.md)

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "firmware/hal/time.hpp"
+#include "firmware/spec/instructions.hpp"
 #include "firmware/tmcl/interrupt_controller.hpp"
 
 namespace opentmcl {
@@ -33,7 +34,7 @@ class ProgramMachine {
   /// Numbers as global parameter 128 and command 135 show them.
   enum class Mode : std::uint8_t { stop = 0, run = 1, step = 2, reset = 3 };
 
-  static constexpr std::uint8_t stack_size = 8;
+  static constexpr std::uint8_t stack_size = maximum_open_calls;
 
   Registers registers;
   InterruptController interrupts;
