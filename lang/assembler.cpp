@@ -245,7 +245,7 @@ class Assembler {
     if (instruction == nullptr) {
       Suggestion suggestion(mnemonic);
       for (const InstructionSpec& row : instructions) {
-        if (row.mnemonic != nullptr) suggestion.consider(row.mnemonic);
+        if (row.mnemonic != nullptr && diagnostics_.wants_suggestions()) suggestion.consider(row.mnemonic);
       }
       diagnostics_.add(DiagnosticKind::unknown_instruction, text.span_of(name),
                        "there is no instruction " + in_quotes(mnemonic), suggestion.text(), {},
@@ -393,11 +393,8 @@ class Assembler {
   Program program() {
     Program program;
     for (const Symbol& symbol : symbols_.symbols()) {
-      if (symbol.kind == SymbolKind::label) {
-        program.labels.push_back({std::string(symbol.name), static_cast<std::uint32_t>(symbol.value), symbol.span});
-      } else {
-        program.constants.push_back({std::string(symbol.name), symbol.value, symbol.span});
-      }
+      if (symbol.kind != SymbolKind::label) continue;
+      program.labels.push_back({std::string(symbol.name), static_cast<std::uint32_t>(symbol.value), symbol.span});
     }
     program.commands = std::move(commands_);
     program.source_map = std::move(source_map_);

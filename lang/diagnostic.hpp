@@ -46,6 +46,8 @@ std::string summary(const DiagnosticCounts& counts);
 class DiagnosticList {
  public:
   static constexpr std::size_t maximum_count = 10000;
+  /// Names are suggested for so many diagnostics: comparing names takes longer than all else.
+  static constexpr std::size_t maximum_suggestions = 100;
 
   explicit DiagnosticList(const DiagnosticKinds& switched_off = {}) : switched_off_(switched_off) {}
 
@@ -55,6 +57,7 @@ class DiagnosticList {
   std::size_t size() const { return diagnostics_.size(); }
   /// Forgets the diagnostics added since there were `size` of them.
   void rewind(std::size_t size);
+  bool wants_suggestions() const { return diagnostics_.size() < maximum_suggestions; }
   bool has_errors() const { return count_[static_cast<std::size_t>(Severity::error)] > 0; }
   /// In the order of the files and of the places in them.
   std::vector<Diagnostic> take_sorted();

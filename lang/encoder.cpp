@@ -152,7 +152,7 @@ void report_undefined_name(Span span, std::string_view name, const SymbolTable& 
   for (std::size_t i = 0; i < words.count; ++i) {
     if (words.words[i].value != words.excluded) suggestion.consider(words.words[i].word);
   }
-  if (symbols.symbols().size() <= maximum_suggested_names) {
+  if (symbols.symbols().size() <= maximum_suggested_names && diagnostics.wants_suggestions()) {
     for (const Symbol& symbol : symbols.symbols()) suggestion.consider(symbol.name);
   }
   diagnostics.add(DiagnosticKind::undefined_name, span, in_quotes(name) + " is not defined", suggestion.text(), {},

@@ -133,7 +133,8 @@ class Evaluator {
     const FunctionSpec* const function = find_function(name.text(scope_->text));
     if (function == nullptr) {
       Suggestion suggestion(name.text(scope_->text));
-      for (std::size_t i = 0; i < function_count; ++i) suggestion.consider(functions[i].name);
+      for (std::size_t i = 0; i < function_count && diagnostics_->wants_suggestions(); ++i)
+        suggestion.consider(functions[i].name);
       fail(DiagnosticKind::unknown_function, name, "there is no function " + quoted_text(name), suggestion.text(), {},
            fix_of(suggestion, scope_->span_of(name)));
       return 0;

@@ -15,18 +15,11 @@ struct Label {
   Span span;                  ///< of the name
 };
 
-struct Constant {
-  std::string name;  ///< as written where it is defined
-  double value = 0;
-  Span span;  ///< of the name
-};
-
 /// An assembled program. A program address is an index into `commands`.
 struct Program {
   std::vector<Command> commands;
-  std::vector<Label> labels;        ///< in the order of their addresses
-  std::vector<Constant> constants;  ///< in the order of their definitions, those of the built-in files too
-  std::vector<Span> source_map;     ///< of each command its text; empty, at the end, for an appended STOP
+  std::vector<Label> labels;     ///< in the order of their addresses
+  std::vector<Span> source_map;  ///< of each command its text; empty, at the end, for an appended STOP
 };
 
 }  // namespace opentmcl::lang

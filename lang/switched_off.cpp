@@ -121,7 +121,7 @@ void find_unknown_warnings(const Sources& sources, DiagnosticList& diagnostics) 
       const Span span{file, static_cast<std::uint32_t>(offset), static_cast<std::uint32_t>(name.size())};
       Suggestion suggestion(name);
       for (const DiagnosticKindSpec& row : diagnostic_kinds) {
-        if (row.severity == Severity::warning) suggestion.consider(row.name);
+        if (row.severity == Severity::warning && diagnostics.wants_suggestions()) suggestion.consider(row.name);
       }
       diagnostics.add(DiagnosticKind::unknown_warning, span, "there is no warning " + in_quotes(name),
                       suggestion.text(), {}, fix_of(suggestion, span));
