@@ -49,6 +49,7 @@ int run(int argument_count, char** arguments) {
   add_farm(app, context);
   add_asm(app, context);
   add_dis(app, context);
+  add_fmt(app, context);
   add_run(app, context);
   add_get(app, context);
   add_set(app, context);

@@ -84,7 +84,7 @@ class WithNothingPluggedIn(CommandLineTest):
 
     def test_has_help_with_examples_for_each_command(self):
         self.assertIn("Examples:", self.expect(0, "--help").stdout)
-        for command in "sim asm dis run get set rotate move stop send spec version".split():
+        for command in "sim asm dis fmt run get set rotate move stop send spec version".split():
             self.assertIn("Example", self.expect(0, command, "--help").stdout, command)
 
 
@@ -122,6 +122,50 @@ class AssemblerCommands(CommandLineTest):
     def test_a_damaged_binary_is_refused(self):
         self.expect(65, "dis", self.write("p.bin", b"1234567"))
         self.expect(65, "dis", self.path("missing.bin"))
+
+
+class Formatting(CommandLineTest):
+    UNTIDY = "l: stop\nmst 0 // halt\n"
+    TIDY = "l:\n    STOP\n    MST 0                   // halt\n"
+
+    def test_replaces_files_and_keeps_links_and_permissions(self):
+        source = self.write("p.tmc", self.UNTIDY)
+        os.chmod(source, 0o640)
+        os.symlink(source, self.path("link.tmc"))
+        done = self.expect(0, "fmt", self.path("link.tmc"))
+        self.assertEqual(("", ""), (done.stdout, done.stderr))
+        self.assertEqual(self.TIDY.encode(), self.read("p.tmc"))
+        self.assertTrue(os.path.islink(self.path("link.tmc")))
+        self.assertEqual(0o640, os.stat(source).st_mode & 0o777)
+        self.assertEqual({"p.tmc", "link.tmc"}, set(os.listdir(os.path.dirname(source))))
+
+    def test_checks_without_writing(self):
+        untidy, tidy = self.write("untidy.tmc", self.UNTIDY), self.write("tidy.tmc", self.TIDY)
+        self.assertEqual(untidy + "\n", self.expect(1, "fmt", "--check", untidy, tidy).stdout)
+        self.assertEqual("", self.expect(0, "fmt", "--check", tidy).stdout)
+        self.assertEqual([True, False], [entry["changed"] for entry in self.json("fmt", "--diff", untidy, tidy)])
+        self.assertEqual(self.TIDY, self.expect(0, "fmt", "--stdout", untidy).stdout)
+        self.assertEqual(self.UNTIDY.encode(), self.read("untidy.tmc"))
+
+    def test_shows_a_diff_that_patch_takes(self):
+        text = "// 1\n// 2\n// 3\n// 4\n\n\n" + self.UNTIDY + "// 5\n" * 9 + " stop"
+        source = self.write("p.tmc", text)
+        diff = self.expect(0, "fmt", "--diff", source).stdout
+        subprocess.run(["patch", "--quiet", source], input=diff, text=True, check=True, timeout=30)
+        self.expect(0, "fmt", "--check", source)
+
+    def test_is_a_filter(self):
+        self.assertEqual(self.TIDY, self.expect(0, "fmt", "-", input=self.UNTIDY).stdout)
+
+    def test_names_lines_it_leaves_alone(self):
+        source = self.write("p.tmc", "stop\n 5 apples\n")
+        self.assertIn("p.tmc:2: ", self.expect(0, "fmt", source).stderr)
+        self.assertEqual(b"    STOP\n 5 apples\n", self.read("p.tmc"))
+
+    def test_goes_on_after_a_file_that_is_missing(self):
+        source = self.write("p.tmc", self.UNTIDY)
+        self.assertIn("missing.tmc", self.expect(65, "fmt", self.path("missing.tmc"), source).stderr)
+        self.assertEqual(self.TIDY.encode(), self.read("p.tmc"))
 
 
 class ExitCodes(CommandLineTest):

@@ -177,8 +177,10 @@ class TemporaryFolderTest(unittest.TestCase):
 
     def tmcl(self, *arguments, **options):
         """Runs the program to its end."""
+        if "input" not in options:
+            options["stdin"] = subprocess.DEVNULL
         return subprocess.run([tmcl_path(), *arguments], capture_output=True, text=True, timeout=DEADLINE, check=False,
-                              stdin=subprocess.DEVNULL, **options)
+                              **options)
 
 
 class SimulationTest(TemporaryFolderTest):
