@@ -36,6 +36,15 @@ Result<void> store_all(Client& client, const std::vector<Command>& program, std:
   return {};
 }
 
+/// Bit 0 of global parameter 81.
+bool protects_against_reading(std::int32_t code_protection) {
+  return (code_protection & 1) != 0;
+}
+
+bool ends_program(const Command& instruction) {
+  return instruction.opcode == 0 || is_control_command(instruction.opcode);
+}
+
 }  // namespace
 
 Result<void> download(Client& client, const std::vector<Command>& program, std::uint16_t address,
@@ -60,6 +69,29 @@ Result<Command> read_instruction(Client& client, std::uint16_t address) {
   }
   // Host address, then the instruction as a request has it, then the checksum.
   return decode_request(*reply).command;
+}
+
+Result<std::vector<Command>> read_program(Client& client, std::uint16_t capacity, const Progress& progress) {
+  constexpr auto code_protection = static_cast<std::uint8_t>(GlobalParameter::code_protection);
+  const Result<std::int32_t> protection = client.global_parameter(code_protection, Bank::module_settings);
+  if (!protection) return protection.error();
+  if (protects_against_reading(*protection)) {
+    return Error{ErrorKind::refused,
+                 "the program in the module is protected against reading (global parameter " +
+                     std::to_string(code_protection) + " is " + std::to_string(*protection) +
+                     "); taking the protection away erases the program",
+                 {}};
+  }
+  std::vector<Command> program;
+  while (program.size() < capacity) {
+    const Result<Command> instruction = read_instruction(client, static_cast<std::uint16_t>(program.size()));
+    if (!instruction) return instruction.error();
+    if (ends_program(*instruction)) break;
+    program.push_back(*instruction);
+    if (!progress(program.size(), capacity)) return interrupted();
+  }
+  if (!program.empty()) return program;
+  return Error{ErrorKind::refused, "the module holds no program: there is no instruction at address 0", {}};
 }
 
 Result<void> verify(Client& client, const std::vector<Command>& program, std::uint16_t address,

@@ -21,6 +21,11 @@ Result<void> download(Client& client, const std::vector<Command>& program, std::
 /// Reads one instruction.
 Result<Command> read_instruction(Client& client, std::uint16_t address);
 
+/// Reads the program from address 0 to its end: to the first place whose opcode no program can hold, be it the mark
+/// that TMCL-IDE writes behind a program or memory nobody has written; `capacity` instructions at most, which is also
+/// the total `progress` is told. Error: refused when the program is protected against reading, or when there is none.
+Result<std::vector<Command>> read_program(Client& client, std::uint16_t capacity, const Progress& progress);
+
 /// Reads the program back and compares. Error: protocol, naming the first difference.
 Result<void> verify(Client& client, const std::vector<Command>& program, std::uint16_t address,
                     const Progress& progress);

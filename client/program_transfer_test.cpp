@@ -32,6 +32,9 @@ struct ProgramTransfer : testing::Test {
     return found;
   }
   void answer_instruction(const Command& command) { transport.answer(encode(Request{2, command})); }
+  void answer_protection(std::int32_t value) { transport.answer(Reply{2, 1, Status::ok, ggp, value}); }
+
+  static constexpr auto ggp = static_cast<std::uint8_t>(Opcode::ggp);
 };
 
 TEST_F(ProgramTransfer, StopsTheProgramAndSendsTheInstructionsInDownloadMode) {
@@ -96,6 +99,56 @@ TEST_F(ProgramTransfer, RefusesAnInstructionWithAWrongChecksum) {
   const Result<Command> found = read_instruction(client, 0);
   ASSERT_FALSE(found.ok());
   EXPECT_EQ(ErrorKind::protocol, found.error().kind);
+}
+
+TEST_F(ProgramTransfer, ReadsAProgramToItsEnd) {
+  for (const std::uint8_t end : {std::uint8_t{0}, std::uint8_t{255}}) {
+    answer_protection(2);  // against writing
+    for (const Command& command : program) answer_instruction(command);
+    answer_instruction({end, end, end, 0});
+    std::vector<std::size_t> progress;
+    const Result<std::vector<Command>> found = read_program(client, 2048, [&](std::size_t count, std::size_t total) {
+      EXPECT_EQ(2048U, total);
+      progress.push_back(count);
+      return true;
+    });
+    ASSERT_TRUE(found.ok());
+    EXPECT_EQ(program, *found);
+    EXPECT_EQ((std::vector<std::size_t>{1, 2}), progress);
+  }
+}
+
+TEST_F(ProgramTransfer, ReadsNoFurtherThanTheMemory) {
+  answer_protection(0);
+  for (const Command& command : program) answer_instruction(command);
+  const Result<std::vector<Command>> found = read_program(client, 2, keep_going);
+  ASSERT_TRUE(found.ok());
+  EXPECT_EQ(program, *found);
+}
+
+TEST_F(ProgramTransfer, DoesNotTakeAProtectedProgramForNone) {
+  answer_protection(3);
+  const Result<std::vector<Command>> found = read_program(client, 2048, keep_going);
+  ASSERT_FALSE(found.ok());
+  EXPECT_EQ(ErrorKind::refused, found.error().kind);
+  EXPECT_NE(std::string::npos, found.error().message.find("protected against reading"));
+  EXPECT_EQ(std::vector<std::uint8_t>{ggp}, opcodes());
+}
+
+TEST_F(ProgramTransfer, SaysWhenThereIsNoProgram) {
+  answer_protection(0);
+  answer_instruction({0, 0, 0, 0});
+  const Result<std::vector<Command>> found = read_program(client, 2048, keep_going);
+  ASSERT_FALSE(found.ok());
+  EXPECT_NE(std::string::npos, found.error().message.find("no program"));
+}
+
+TEST_F(ProgramTransfer, CanBeInterruptedWhileReading) {
+  answer_protection(0);
+  answer_instruction(program[0]);
+  const Result<std::vector<Command>> found = read_program(client, 2048, [](std::size_t, std::size_t) { return false; });
+  ASSERT_FALSE(found.ok());
+  EXPECT_EQ(ErrorKind::interrupted, found.error().kind);
 }
 
 }  // namespace

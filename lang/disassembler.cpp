@@ -1,12 +1,15 @@
 #include "lang/disassembler.hpp"
 
 #include <cstdint>
+#include <string_view>
 #include <utility>
 
 #include "firmware/spec/instructions.hpp"
 #include "lang/command_check.hpp"
+#include "lang/formatter.hpp"
 #include "lang/hexadecimal.hpp"
 #include "lang/instruction_table.hpp"
+#include "lang/operand_meaning.hpp"
 
 namespace opentmcl::lang {
 namespace {
@@ -94,7 +97,22 @@ DisassembledInstruction disassemble_instruction(const Command& command, const Mo
   return write_instruction(command, module, [](std::int32_t) { return false; });
 }
 
-Disassembly disassemble(const std::vector<Command>& commands, const ModuleDescription& module) {
+std::string instruction_comment(const Command& command, const ModuleDescription& module, const PhysicalScale& scale) {
+  const InstructionSpec* const instruction = find_instruction(command.opcode, module.id);
+  if (!is_instruction(instruction)) return {};
+  std::string comment;
+  for (const OperandSpec& operand : instruction->operands) {
+    const std::string_view name = name_of_operand(operand, command, module);
+    const std::string value =
+        short_physical_value(unit_of_operand(operand, command, module), operand_value(command, operand), scale);
+    if (!comment.empty() && !value.empty()) comment += " = ";
+    comment += name;
+    comment += value;
+  }
+  return comment;
+}
+
+Disassembly disassemble(const std::vector<Command>& commands, const ModuleDescription& module, Comments comments) {
   const std::vector<bool> targets = find_targets(commands, module);
   const auto is_label = [&](std::int32_t address) {
     return address >= 0 && static_cast<std::size_t>(address) < targets.size();
@@ -104,17 +122,22 @@ Disassembly disassemble(const std::vector<Command>& commands, const ModuleDescri
   const auto add_label = [&](std::size_t address) {
     if (targets[address]) disassembly.text += label_name(address) + ":\n";
   };
+  PhysicalScale scale = factory_scale(module);
   for (std::size_t address = 0; address < commands.size(); ++address) {
     add_label(address);
+    follow(commands[address], module, scale);
     DisassembledInstruction instruction = write_instruction(commands[address], module, is_label);
     if (instruction.text) {
-      disassembly.text += "    " + *instruction.text + "\n";
+      const std::string comment =
+          comments == Comments::meanings ? instruction_comment(commands[address], module, scale) : std::string();
+      disassembly.text += "    " + *instruction.text + (comment.empty() ? "" : " // " + comment) + "\n";
     } else {
       disassembly.text += "    // " + hexadecimal(commands[address]) + ": " + instruction.reason + "\n";
       disassembly.problems.push_back({address, commands[address], std::move(instruction.reason)});
     }
   }
   add_label(commands.size());
+  disassembly.text = format_source(disassembly.text);
   return disassembly;
 }
 

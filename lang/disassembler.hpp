@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "firmware/spec/modules.hpp"
 #include "firmware/wire/datagram.hpp"
+#include "lang/physical_value.hpp"
 
 namespace opentmcl::lang {
 
@@ -21,6 +23,10 @@ struct DisassembledInstruction {
 /// meaning.
 DisassembledInstruction disassemble_instruction(const Command& command, const ModuleDescription& module);
 
+/// What an instruction is about, as a comment beside it says it: "maximum positioning speed = 35.8 rpm", "digital
+/// output 1", "500 ms". Empty where its words say it all.
+std::string instruction_comment(const Command& command, const ModuleDescription& module, const PhysicalScale& scale);
+
 struct Inexpressible {
   std::size_t address;
   Command command;
@@ -33,7 +39,11 @@ struct Disassembly {
   std::vector<Inexpressible> problems;  ///< if any, the text is for reading only
 };
 
-/// Addresses within the program (or just behind it) that instructions jump to become labels `L_n`.
-Disassembly disassemble(const std::vector<Command>& commands, const ModuleDescription& module);
+enum class Comments : std::uint8_t { none, meanings };
+
+/// Addresses within the program (or just behind it) that instructions jump to become labels `L_n`. Physical values in
+/// comments begin with the module's factory settings and follow the program (`follow`). The text is formatted.
+Disassembly disassemble(const std::vector<Command>& commands, const ModuleDescription& module,
+                        Comments comments = Comments::meanings);
 
 }  // namespace opentmcl::lang

@@ -10,61 +10,13 @@
 #include <vector>
 
 #include "lang/assembling_test.hpp"
-#include "lang/instruction_table.hpp"
+#include "lang/formatter.hpp"
+#include "lang/generated_program_test.hpp"
 
 namespace opentmcl::lang {
 namespace {
 
 using testing::HasSubstr;
-
-/// Any value the assembler takes for the operand.
-std::int32_t any_operand(const OperandSpec& operand) {
-  if (takes_words(operand.kind)) {
-    const KeywordSet set = keywords_of(operand.kind);
-    const auto index = *rc::gen::inRange<std::size_t>(0, set.count);
-    return set.words[index].value == set.excluded ? 0 : set.words[index].value;
-  }
-  if (operand.field == Field::value) return *rc::gen::arbitrary<std::int32_t>();
-  return *rc::gen::inRange<std::int32_t>(0, 256);
-}
-
-Command any_command(const InstructionSpec& row) {
-  Command result = command(row.opcode);
-  for (const OperandSpec& operand : row.operands) {
-    switch (operand.field) {
-      case Field::type:
-        result.type = static_cast<std::uint8_t>(any_operand(operand));
-        break;
-      case Field::motor:
-        result.motor = static_cast<std::uint8_t>(any_operand(operand));
-        break;
-      case Field::value:
-        result.value = any_operand(operand);
-        break;
-      case Field::none:
-        break;
-    }
-  }
-  return result;
-}
-
-/// Makes jumps go to places in the program, or just behind it.
-void aim_jumps(std::vector<Command>& commands, const ModuleDescription& module) {
-  const auto end = static_cast<std::int32_t>(commands.size()) + 1;
-  for (Command& each : commands) {
-    for (const OperandSpec& operand : find_instruction(each.opcode, module.id)->operands) {
-      if (operand.kind == OperandKind::address) each.value = *rc::gen::inRange<std::int32_t>(-1, end);
-    }
-  }
-}
-
-std::vector<const InstructionSpec*> instructions_of(const ModuleDescription& module) {
-  std::vector<const InstructionSpec*> rows;
-  for (const InstructionSpec& row : instructions) {
-    if (row.mnemonic != nullptr && contains(row.modules, module.id)) rows.push_back(&row);
-  }
-  return rows;
-}
 
 /// What the assembler makes of a text; it may warn.
 std::vector<Command> reassembled(const std::string& text, const ModuleDescription& module) {
@@ -73,10 +25,11 @@ std::vector<Command> reassembled(const std::string& text, const ModuleDescriptio
   return result.program->commands;
 }
 
-RC_GTEST_PROP(Disassembler, IsTheInverseOfTheAssemblerForEveryInstruction, ()) {
+RC_GTEST_PROP(Disassembler, IsTheInverseOfTheAssemblerForEveryInstruction, (std::uint64_t seed)) {
+  Dice dice(seed);
   for (const ModuleDescription& module : modules) {
     for (const InstructionSpec* row : instructions_of(module)) {
-      const Command original = any_command(*row);
+      const Command original = generated_command(dice, *row, 65536);
       const DisassembledInstruction instruction = disassemble_instruction(original, module);
       RC_ASSERT(instruction.text.has_value());
       RC_ASSERT(parse_instruction(*instruction.text, module).command == original);
@@ -84,17 +37,16 @@ RC_GTEST_PROP(Disassembler, IsTheInverseOfTheAssemblerForEveryInstruction, ()) {
   }
 }
 
-RC_GTEST_PROP(Disassembler, IsTheInverseOfTheAssemblerForWholeProgramsWithLabels, ()) {
-  const ModuleDescription& module = modules[*rc::gen::inRange<std::size_t>(0, module_count)];
-  const auto rows =
-      *rc::gen::container<std::vector<const InstructionSpec*>>(rc::gen::elementOf(instructions_of(module)));
-  std::vector<Command> commands;
-  commands.reserve(rows.size());
-  for (const InstructionSpec* row : rows) commands.push_back(any_command(*row));
-  aim_jumps(commands, module);
-  const Disassembly disassembly = disassemble(commands, module);
-  RC_ASSERT(disassembly.problems.empty());
-  RC_ASSERT(reassembled(disassembly.text, module) == commands);
+RC_GTEST_PROP(Disassembler, IsTheInverseOfTheAssemblerForWholeProgramsWithLabels, (std::uint64_t seed)) {
+  Dice dice(seed);
+  const ModuleDescription& module = dice.one_of(modules);
+  const std::vector<Command> commands = generated_program(dice, module, dice.below(300));
+  for (const Comments comments : {Comments::none, Comments::meanings}) {
+    const Disassembly disassembly = disassemble(commands, module, comments);
+    RC_ASSERT(disassembly.problems.empty());
+    RC_ASSERT(format_source(disassembly.text) == disassembly.text);
+    RC_ASSERT(reassembled(disassembly.text, module) == commands);
+  }
 }
 
 RC_GTEST_PROP(Disassembler, EitherGivesTextThatAssemblesToTheSameOrSaysWhyNot,
@@ -118,7 +70,32 @@ TEST(Disassembler, WritesLabelsAndWords) {
             "    JC GE, L_0\n"
             "    JA L_3\n"
             "L_3:\n"
-            "    VECT 0, 500\n");
+            "    VECT 0, 500             // timer 0\n");
+}
+
+TEST(Disassembler, SaysWhatInstructionsAreAbout) {
+  EXPECT_EQ(disassemble(commands_of("SAP 4, 0, 1000\nSAP 154, 0, 4\nSAP 4, 0, 1000\nROR 0, -1000\nMVP REL, 0, 25600\n"
+                                    "SAP 6, 0, 255\nWAIT TICKS, 0, 50\nSIO 1, 2, 1\nSGP 0, 3, 500\nGAP 12, 0\nSTOP\n"),
+                        pd1161)
+                .text,
+            "// 11 instructions for the PD-1161 (firmware V1.47)\n"
+            "    SAP 4, 0, 1000          // maximum positioning speed = 35.8 rpm\n"
+            "    SAP 154, 0, 4           // pulse divisor = 16\n"
+            "    SAP 4, 0, 1000          // maximum positioning speed = 17.9 rpm\n"
+            "    ROR 0, -1000            // -17.9 rpm\n"
+            "    MVP REL, 0, 25600       // 0.5 turns\n"
+            "    SAP 6, 0, 255           // maximum current = 2800 mA\n"
+            "    WAIT TICKS, 0, 50       // 500 ms\n"
+            "    SIO 1, 2, 1             // digital output 1\n"
+            "    SGP 0, 3, 500           // timer 0 = 500 ms\n"
+            "    GAP 12, 0               // right limit switch disable\n"
+            "    STOP\n");
+}
+
+TEST(Disassembler, LeavesCommentsOutOnDemand) {
+  EXPECT_EQ(disassemble(commands_of("SAP 4, 0, 1000\n"), tmcm1110, Comments::none).text,
+            "// 1 instructions for the TMCM-1110 (firmware V1.08)\n"
+            "    SAP 4, 0, 1000\n");
 }
 
 TEST(Disassembler, SaysWhatCannotBeWritten) {

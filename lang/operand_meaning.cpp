@@ -98,8 +98,8 @@ Unit unit_of_operand(const OperandSpec& operand, const Command& command, const M
     case OperandKind::position:
       return moves_to_coordinate(command) ? Unit::none : Unit::microsteps;
     case OperandKind::ticks:
-      // -1 is no time: it takes the accumulator.
-      return command.value < 0 ? Unit::none : Unit::ten_milliseconds;
+      // -1 takes the accumulator, and a time limit of 0 is none.
+      return command.value <= 0 ? Unit::none : Unit::ten_milliseconds;
     case OperandKind::value:
       return unit_of_value(command, module);
     default:

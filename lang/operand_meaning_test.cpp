@@ -48,6 +48,7 @@ TEST(OperandMeaning, OfMotionIsSpeedDistanceOrTime) {
   EXPECT_EQ("microsteps", meaning_of("SCO 1, 0, 100"));
   EXPECT_EQ("10 ms", meaning_of("WAIT TICKS, 0, 100"));
   EXPECT_EQ("", meaning_of("WAIT TICKS, 0, -1"));
+  EXPECT_EQ("", meaning_of("WAIT POS, 0, 0"));
 }
 
 TEST(OperandMeaning, OfPortsAndInterruptsIsTheirName) {

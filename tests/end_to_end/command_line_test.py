@@ -124,6 +124,25 @@ class AssemblerCommands(CommandLineTest):
         self.expect(65, "dis", self.path("missing.bin"))
 
 
+    def test_comments_say_what_instructions_are_about(self):
+        self.expect(0, "asm", self.write("p.tmc", "SAP 4, 0, 1000\n"))
+        with_comments = self.expect(0, "dis", self.path("p.bin")).stdout
+        self.assertIn("SAP 4, 0, 1000          // maximum positioning speed = 35.8 rpm\n", with_comments)
+        self.assertNotIn("rpm", self.expect(0, "dis", "--no-comments", self.path("p.bin")).stdout)
+
+    def test_the_program_in_a_module_can_be_read(self):
+        program = self.write("p.tmc", PROGRAM)
+        self.expect(0, "asm", program)
+        simulation = self.start("pd1161", "--program", program)
+        port = ("--port", "tcp://127.0.0.1:%d" % simulation.tcp_port)
+        eventually(lambda: self.tmcl(*port, "dis").returncode == 0, "the program is loaded")
+        self.assertEqual(self.expect(0, "dis", self.path("p.bin")).stdout, self.expect(0, *port, "dis").stdout)
+        self.assertEqual([3, []], [self.json(*port, "dis")[key] for key in ("instructions", "problems")])
+        self.expect(0, *port, "set", "--global", "0", "81", "1")
+        self.assertIn("protected against reading", self.expect(1, *port, "dis").stderr)
+        self.assertIn("no program", self.expect(1, "dis").stderr)
+
+
 class Formatting(CommandLineTest):
     UNTIDY = "l: stop\nmst 0 // halt\n"
     TIDY = "l:\n    STOP\n    MST 0                   // halt\n"
