@@ -13,7 +13,7 @@ packages_to_test=(
 )
 # shellcheck disable=SC2034
 packages_to_check=(
-  git clang-format clang-tidy shellcheck valgrind libbenchmark-dev
+  git clang clang-format clang-tidy libclang-rt-14-dev shellcheck valgrind libbenchmark-dev
   gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib
 )
 
