@@ -240,6 +240,16 @@ Result<ProgramStatus> Client::program_status() {
                        static_cast<std::uint16_t>(bits & 0xFFFF)};
 }
 
+Result<std::int32_t> Client::accumulator() {
+  constexpr std::uint8_t of_accumulator = 2;
+  return read(make_command(Opcode::get_application_status, of_accumulator, 0, 0), true);
+}
+
+Result<std::int32_t> Client::x_register() {
+  constexpr std::uint8_t of_x = 3;
+  return read(make_command(Opcode::get_application_status, of_x, 0, 0), true);
+}
+
 Result<FirmwareVersion> Client::firmware_version() {
   constexpr std::uint8_t as_numbers = 1;
   const Result<std::int32_t> value = read(make_command(Opcode::get_firmware_version, as_numbers, 0, 0), true);

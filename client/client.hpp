@@ -92,6 +92,9 @@ class Client {
   Result<void> start_program();
   Result<void> stop_program();
   Result<ProgramStatus> program_status();
+  /// The registers that the program calculates with.
+  Result<std::int32_t> accumulator();
+  Result<std::int32_t> x_register();
 
   Result<FirmwareVersion> firmware_version();
   /// As the module spells it: "1161V147".

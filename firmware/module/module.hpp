@@ -93,6 +93,11 @@ class Module {
   /// Looks without a command: that would count for the heartbeat, and be stored in a program that is being downloaded.
   Snapshot snapshot();
 
+  /// The same for a debugger: registers, flags, stack and interrupts of the program.
+  const ProgramMachine& program() const { return program_machine_; }
+  /// Axis parameter 207, which stays as it is.
+  std::uint8_t axis_error_flags() const { return axis_.error_flags(); }
+
   const ModuleDescription& description() const { return description_; }
 
  private:

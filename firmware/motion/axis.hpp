@@ -81,6 +81,8 @@ class Axis {
 
   /// Parameter 207, AxisEvent bits: reading clears it, as every motion command does.
   std::int32_t take_error_flags();
+  /// The same flags, which stay.
+  std::uint8_t error_flags() const { return error_flags_; }
 
   /// Something happened since take_events().
   bool has_events() const { return events_ != 0; }

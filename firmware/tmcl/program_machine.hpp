@@ -81,6 +81,13 @@ class ProgramMachine {
   void return_from_interrupt();
   bool is_in_interrupt() const { return in_interrupt_; }
 
+  // For who looks into a module from the board's side, such as a debugger of a virtual one.
+  std::uint8_t depth() const { return depth_; }
+  /// @param level of the subroutine, less than depth(); 0: the outermost
+  std::uint16_t return_address(std::uint8_t level) const { return stack_[level]; }
+  /// Where an open interrupt routine returns to.
+  std::uint16_t interrupted_program_counter() const { return interrupted_.program_counter; }
+
   /// What else than time ends a WAIT: whether it is over has to be looked at again and again.
   enum class WaitsFor : std::uint8_t { time, motion_or_switch, reference_search };
 

@@ -80,6 +80,25 @@ RULES = (
         STANDARD | {"toml++/toml.h", "nlohmann/json.hpp"},
     ),
     Rule("client", ("firmware/spec", "firmware/wire"), ANY_SYSTEM_HEADER),
+    # The debugger knows modules by their commands alone; what a twin can do beyond that it asks for by an interface.
+    Rule("debug", ("client", "lang", "firmware/spec", "firmware/wire", "firmware/hal/time.hpp"), ANY_SYSTEM_HEADER),
+    # Where that interface meets the twin.
+    Rule(
+        "debug/twin",
+        (
+            "debug",
+            "client",
+            "lang",
+            "scenario",
+            "boards/twin",
+            "twin",
+            "firmware/hal",
+            "firmware/spec",
+            "firmware/wire",
+            "firmware/module/module.hpp",
+        ),
+        ANY_SYSTEM_HEADER,
+    ),
     # A session that is logged has its scenario in the log; recordings are started over the control interface.
     Rule(
         "server",
@@ -89,10 +108,10 @@ RULES = (
     # Servers that an editor starts. What they share knows no protocol above JSON messages.
     Rule("editor", (), ANY_SYSTEM_HEADER),
     Rule("editor/lsp", ("editor/message_*.hpp", "lang", "firmware/spec"), ANY_SYSTEM_HEADER),
-    Rule("apps", ("firmware", "boards/twin", "twin", "lang", "scenario", "client", "server", "editor"), ANY_SYSTEM_HEADER),
+    Rule("apps", ("firmware", "boards/twin", "twin", "lang", "scenario", "client", "debug", "server", "editor"), ANY_SYSTEM_HEADER),
     Rule(
         "tests",
-        ("firmware", "boards/twin", "twin", "lang", "scenario", "client", "server", "editor", "apps"),
+        ("firmware", "boards/twin", "twin", "lang", "scenario", "client", "debug", "server", "editor", "apps"),
         ANY_SYSTEM_HEADER,
     ),
 )

@@ -1,0 +1,390 @@
+// An engine with a twin: whatever it does forward it can undo, and stepping is the same as running.
+
+#include "debug/twin/twin_target.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "debug/debugging_test.hpp"
+#include "scenario/scenario_file.hpp"
+
+namespace opentmcl::debug {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+struct Bench {
+  explicit Bench(std::string_view source, TwinSetup setup = {})
+      : twin(std::move(setup)),
+        engine(twin, program_of(source), [this](const std::string& text) { output.push_back(text); }) {
+    launch(engine);
+  }
+
+  TwinTarget twin;
+  std::vector<std::string> output;
+  Engine engine;
+};
+
+/// All that is to be seen of a program that stands.
+struct Seen {
+  std::uint16_t address;
+  std::int32_t accumulator;
+  std::int32_t x;
+  std::vector<std::int32_t> variables;
+  std::vector<std::uint16_t> frames;
+  std::uint8_t flags;
+  Comparison comparison;
+  Moment moment;
+
+  friend bool operator==(const Seen&, const Seen&) = default;
+};
+
+Seen see(Engine& engine) {
+  const RegisterValues registers = value_of(engine.registers());
+  Seen seen{
+      registers.program_counter,   registers.accumulator,        registers.x, {}, {}, registers.inner->error_flags,
+      registers.inner->comparison, engine.target().twin()->now()};
+  for (std::uint8_t number = 0; number < 6; ++number) seen.variables.push_back(value_of(engine.variable(number)));
+  for (const Frame& frame : engine.frames()) seen.frames.push_back(frame.address);
+  return seen;
+}
+
+constexpr std::string_view counting = R"(
+        SGP 1, 2, 3        // 0
+Loop:   CSUB Work          // 1
+        DJNZ 1, Loop       // 2
+        STOP               // 3
+Work:   GGP 2, 2           // 4
+        CALC ADD, 5        // 5
+        AGP 2, 2           // 6
+        RSUB               // 7
+)";
+
+// ---- Stepping
+
+TEST(DebuggedTwin, StandsBeforeItsFirstInstruction) {
+  Bench bench(counting);
+  EXPECT_EQ(0, bench.engine.stop().address);
+  EXPECT_EQ(Stop::Reason::entry, bench.engine.stop().reason);
+  EXPECT_EQ(0, value_of(bench.engine.variable(1)));
+}
+
+TEST(DebuggedTwin, StepsIntoASubroutine) {
+  Bench bench(counting);
+  go(bench.engine, Motion::Kind::step);
+  EXPECT_EQ(1, bench.engine.stop().address);
+  EXPECT_EQ(3, value_of(bench.engine.variable(1)));
+  EXPECT_EQ(4, go(bench.engine, Motion::Kind::step).address);
+  const std::vector<Frame> frames = bench.engine.frames();
+  ASSERT_EQ(2U, frames.size());
+  EXPECT_EQ(4, frames[0].address);
+  EXPECT_EQ(2, frames[1].address);
+}
+
+TEST(DebuggedTwin, StepsOverASubroutine) {
+  Bench bench(counting);
+  go(bench.engine, Motion::Kind::step);
+  EXPECT_EQ(2, go(bench.engine, Motion::Kind::step_over).address);
+  EXPECT_EQ(5, value_of(bench.engine.variable(2)));
+}
+
+TEST(DebuggedTwin, StepsOutOfASubroutine) {
+  Bench bench(counting);
+  go(bench.engine, Motion::Kind::run_to, 5);
+  EXPECT_EQ(2, go(bench.engine, Motion::Kind::step_out).address);
+  const auto outside = bench.engine.go({Motion::Kind::step_out, 0, {}}, always);
+  ASSERT_FALSE(outside);
+  EXPECT_EQ(client::ErrorKind::usage, outside.error().kind);
+}
+
+TEST(DebuggedTwin, EndsAtStop) {
+  Bench bench(counting);
+  const Stop end = go(bench.engine, Motion::Kind::run);
+  EXPECT_EQ(Stop::Reason::ended, end.reason);
+  EXPECT_EQ(3, end.address);
+  EXPECT_EQ(15, value_of(bench.engine.variable(2)));
+  EXPECT_FALSE(bench.engine.go({Motion::Kind::step, 0, {}}, always));
+  value_of(bench.engine.restart());
+  EXPECT_EQ(0, bench.engine.stop().address);
+  EXPECT_EQ(0, value_of(bench.engine.variable(2)));
+}
+
+TEST(DebuggedTwin, TimeStandsStillWhileTheProgramDoes) {
+  Bench bench("ROR 0, 500\nWAIT TICKS, 0, 10\nLoop: JA Loop\n");
+  go(bench.engine, Motion::Kind::run_to, 2);
+  const auto position = value_of(bench.engine.evaluate("GAP 1, 0"));
+  EXPECT_GT(position, 0);
+  for (int look = 0; look < 100; ++look) EXPECT_EQ(position, value_of(bench.engine.evaluate("GAP(1)")));
+  go(bench.engine, Motion::Kind::step);
+  EXPECT_GT(value_of(bench.engine.evaluate("GAP(1)")), position);
+}
+
+TEST(DebuggedTwin, AStepOverAWaitEndsWhenTheWaitDoes) {
+  Bench bench("WAIT TICKS, 0, 100\nSTOP\n");
+  const Moment begin = bench.engine.target().twin()->now();
+  EXPECT_EQ(1, go(bench.engine, Motion::Kind::step).address);
+  EXPECT_GE(bench.engine.target().twin()->now().time - begin.time, 1'000'000U);
+}
+
+TEST(DebuggedTwin, AWaitWithoutEndCanBePausedAndItsBeginGoneBackTo) {
+  Bench bench("CALC LOAD, 7\nWAIT REFSW, 0, 0\nSTOP\n");
+  go(bench.engine, Motion::Kind::step);
+  int asked = 0;
+  const Stop paused = value_of(bench.engine.go({Motion::Kind::run, 0, {}}, [&](const Underway& underway) {
+    EXPECT_TRUE(underway.waiting);
+    return ++asked < 10;
+  }));
+  EXPECT_EQ(Stop::Reason::pause, paused.reason);
+  EXPECT_TRUE(paused.waiting);
+  EXPECT_EQ(1, paused.address);
+  EXPECT_EQ(1, go(bench.engine, Motion::Kind::reverse_step).address);
+  EXPECT_EQ(0, go(bench.engine, Motion::Kind::reverse_step).address);
+  EXPECT_EQ(0, value_of(bench.engine.registers()).accumulator);
+}
+
+TEST(DebuggedTwin, AMotionHasALimit) {
+  Bench bench("Loop: JA Loop\n");
+  const Stop stop =
+      value_of(bench.engine.go({Motion::Kind::run, 0, client::Duration(std::chrono::seconds(2))}, always));
+  EXPECT_EQ(Stop::Reason::limit, stop.reason);
+}
+
+// ---- Breakpoints
+
+TEST(DebuggedTwin, StopsBeforeAnInstructionWithABreakpoint) {
+  Bench bench(counting);
+  const int number = break_at(bench.engine, 6);
+  const Stop stop = go(bench.engine, Motion::Kind::run);
+  EXPECT_EQ(Stop::Reason::breakpoint, stop.reason);
+  EXPECT_THAT(stop.breakpoints, ElementsAre(number));
+  EXPECT_EQ(5, value_of(bench.engine.registers()).accumulator);
+  EXPECT_EQ(0, value_of(bench.engine.variable(2)));
+}
+
+TEST(DebuggedTwin, AConditionIsAskedAtTheBreakpoint) {
+  Bench bench(counting);
+  BreakpointRequest request;
+  request.address = 6;
+  request.condition = "A > 5 && VAR(1) == 2 && GAP(1, 0) < 500";
+  value_of(bench.engine.add(request));
+  go(bench.engine, Motion::Kind::run);
+  EXPECT_EQ(6, bench.engine.stop().address);
+  EXPECT_EQ(10, value_of(bench.engine.registers()).accumulator);
+  EXPECT_EQ(Stop::Reason::ended, go(bench.engine, Motion::Kind::run).reason);
+}
+
+TEST(DebuggedTwin, AConditionThatFailsStopsAndSaysWhy) {
+  Bench bench(counting);
+  BreakpointRequest request;
+  request.address = 4;
+  request.condition = "1 / A > 3";
+  value_of(bench.engine.add(request));
+  const Stop stop = go(bench.engine, Motion::Kind::run);
+  EXPECT_EQ(4, stop.address);
+  EXPECT_THAT(stop.description, HasSubstr("division by zero"));
+}
+
+TEST(DebuggedTwin, HitsAreCounted) {
+  Bench bench(counting);
+  BreakpointRequest request;
+  request.address = 5;
+  request.hit_condition = "3";
+  value_of(bench.engine.add(request));
+  go(bench.engine, Motion::Kind::run);
+  EXPECT_EQ(10, value_of(bench.engine.variable(2)));
+}
+
+TEST(DebuggedTwin, ALogpointSpeaksAndLetsTheProgramGo) {
+  Bench bench(counting);
+  BreakpointRequest request;
+  request.address = 6;
+  request.log_message = "{{A}} is {A}";
+  value_of(bench.engine.add(request));
+  EXPECT_EQ(Stop::Reason::ended, go(bench.engine, Motion::Kind::run).reason);
+  EXPECT_THAT(bench.output, ElementsAre("{A} is 5", "{A} is 10", "{A} is 15"));
+}
+
+TEST(DebuggedTwin, AWatchedValueStopsTheProgramWhenItChanges) {
+  Bench bench(counting);
+  BreakpointRequest request;
+  request.kind = BreakpointRequest::Kind::change;
+  request.subject = "VAR(2)";
+  value_of(bench.engine.add(request));
+  const Stop stop = go(bench.engine, Motion::Kind::run);
+  EXPECT_EQ(Stop::Reason::change, stop.reason);
+  EXPECT_EQ(7, stop.address);
+  EXPECT_EQ("VAR(2): 0 -> 5", stop.description);
+}
+
+TEST(DebuggedTwin, StopsWhenASignalBecomesTrue) {
+  Bench bench("ROR 0, 1000\nLoop: JA Loop\n");
+  BreakpointRequest request;
+  request.kind = BreakpointRequest::Kind::signal;
+  request.subject = "velocity > 500";
+  value_of(bench.engine.add(request));
+  const Stop stop = go(bench.engine, Motion::Kind::run);
+  EXPECT_EQ(Stop::Reason::signal, stop.reason);
+  EXPECT_THAT(stop.description, HasSubstr("velocity is 50"));
+  request.subject = "velocty > 500";
+  EXPECT_FALSE(bench.engine.add(request));
+}
+
+TEST(DebuggedTwin, StopsWhenTheSupplyFails) {
+  Bench bench("Loop: JA Loop\n");
+  bench.engine.stop_at_troubles(static_cast<std::uint8_t>(Trouble::under_voltage));
+  int asked = 0;
+  value_of(bench.engine.go({Motion::Kind::run, 0, {}}, [&](const Underway&) { return ++asked < 3; }));
+  expect_done(bench.engine.target().twin()->set_quantity("supply_voltage", 5));
+  const Stop stop = go(bench.engine, Motion::Kind::run);
+  // Known when the program was let go: it is the program that ends.
+  EXPECT_EQ(Stop::Reason::ended, stop.reason);
+}
+
+// ---- Back in time
+
+TEST(DebuggedTwin, StepsBackToTheBeginAndNoFurther) {
+  Bench bench(counting);
+  go(bench.engine, Motion::Kind::step);
+  go(bench.engine, Motion::Kind::step);
+  EXPECT_EQ(1, go(bench.engine, Motion::Kind::reverse_step).address);
+  EXPECT_EQ(0, go(bench.engine, Motion::Kind::reverse_step).address);
+  EXPECT_EQ(0, value_of(bench.engine.variable(1)));
+  EXPECT_EQ(Stop::Reason::beginning, go(bench.engine, Motion::Kind::reverse_step).reason);
+}
+
+TEST(DebuggedTwin, StepsBackFromItsEnd) {
+  Bench bench(counting);
+  go(bench.engine, Motion::Kind::run);
+  EXPECT_EQ(3, go(bench.engine, Motion::Kind::reverse_step).address);
+  EXPECT_EQ(2, go(bench.engine, Motion::Kind::reverse_step).address);
+  EXPECT_EQ(1, go(bench.engine, Motion::Kind::reverse_step_over).address);
+  EXPECT_EQ(10, value_of(bench.engine.variable(2)));
+}
+
+TEST(DebuggedTwin, GoesBackOutOfASubroutine) {
+  Bench bench(counting);
+  go(bench.engine, Motion::Kind::run_to, 6);
+  EXPECT_EQ(1, go(bench.engine, Motion::Kind::reverse_step_out).address);
+}
+
+TEST(DebuggedTwin, WhatTheUserDidIsDoneAgainOnTheWayForth) {
+  Bench bench(counting);
+  go(bench.engine, Motion::Kind::run_to, 6);
+  expect_done(bench.engine.set_variable(2, 100));
+  expect_done(bench.engine.set_accumulator(1000));
+  go(bench.engine, Motion::Kind::step);
+  EXPECT_EQ(1000, value_of(bench.engine.variable(2)));
+  for (int i = 0; i < 3; ++i) go(bench.engine, Motion::Kind::reverse_step);
+  EXPECT_EQ(0, value_of(bench.engine.variable(2)));
+  for (int i = 0; i < 3; ++i) go(bench.engine, Motion::Kind::step);
+  EXPECT_EQ(1000, value_of(bench.engine.variable(2)));
+  // Something new makes another future.
+  for (int i = 0; i < 3; ++i) go(bench.engine, Motion::Kind::reverse_step);
+  expect_done(bench.engine.set_variable(2, 7));
+  go(bench.engine, Motion::Kind::run_to, 7);
+  EXPECT_EQ(12, value_of(bench.engine.variable(2)));
+}
+
+TEST(DebuggedTwin, AScenarioIsAPartOfTheHistory) {
+  TwinSetup setup;
+  scenario::ScenarioFile file = scenario::read_scenario(R"(
+module = "pd1161"
+duration = "1 s"
+[[event]]
+at = "20 ms"
+set = { "input.1" = 1 }
+)");
+  if (!file.scenario) {
+    GTEST_FAIL() << scenario::format(file.problems, "bench.toml");
+  }
+  setup.scenario = *file.scenario;
+  Bench bench("Loop: GIO 1, 0\nJC ZE, Loop\nSTOP\n", std::move(setup));
+  const Stop end = go(bench.engine, Motion::Kind::run);
+  EXPECT_EQ(Stop::Reason::ended, end.reason);
+  const Moment moment = bench.engine.target().twin()->now();
+  EXPECT_GE(moment.time, 20'000U);
+  go(bench.engine, Motion::Kind::reverse_run);
+  EXPECT_EQ(Stop::Reason::ended, go(bench.engine, Motion::Kind::run).reason);
+  EXPECT_EQ(moment, bench.engine.target().twin()->now());
+}
+
+/// A program with loops, subroutines, motion and pauses, different for each seed.
+std::string random_program() {
+  std::string text = "Begin:\n";
+  const auto count = *rc::gen::inRange(1, 12);
+  for (int i = 0; i < count; ++i) {
+    const std::string number = std::to_string(*rc::gen::inRange(-50, 50));
+    const std::string variable = std::to_string(*rc::gen::inRange(0, 6));
+    const std::string lines[] = {
+        "CALC ADD, " + number,
+        "CALC XOR, " + number,
+        "CALCX SWAP",
+        "SGP " + variable + ", 2, " + number,
+        "GGP " + variable + ", 2",
+        "AGP " + variable + ", 2",
+        "CSUB Sub",
+        "COMP " + number + "\nJC GT, L" + std::to_string(i) + "\nCALC MUL, 3\nL" + std::to_string(i) + ":",
+        "WAIT TICKS, 0, 1",
+        "ROR 0, 300",
+        "GAP 1, 0",
+        "MVP REL, 0, 40\nWAIT POS, 0, 5"};
+    text += lines[static_cast<std::size_t>(*rc::gen::inRange(0, static_cast<int>(std::size(lines))))] + "\n";
+  }
+  return text + "JA Begin\nSub: CALC ADD, 1\nCSUB Inner\nRSUB\nInner: CALC MUL, 2\nRSUB\n";
+}
+
+RC_GTEST_PROP(DebuggedTwin, SteppingBackGivesTheStateBefore, ()) {
+  Bench bench(random_program());
+  std::vector<Seen> seen{see(bench.engine)};
+  const auto steps = *rc::gen::inRange(1, 60);
+  for (int i = 0; i < steps; ++i) {
+    go(bench.engine, Motion::Kind::step);
+    seen.push_back(see(bench.engine));
+  }
+  for (std::size_t i = seen.size() - 1; i-- > 0;) {
+    go(bench.engine, Motion::Kind::reverse_step);
+    RC_ASSERT(see(bench.engine) == seen[i]);
+  }
+}
+
+RC_GTEST_PROP(DebuggedTwin, RunningToABreakpointEqualsSingleSteps, ()) {
+  const std::string source = random_program();
+  Bench stepped(source);
+  const auto steps = *rc::gen::inRange(1, 60);
+  for (int i = 0; i < steps; ++i) go(stepped.engine, Motion::Kind::step);
+  const Seen goal = see(stepped.engine);
+
+  Bench run(source);
+  break_at(run.engine, goal.address);
+  while (run.engine.target().twin()->now() < goal.moment) go(run.engine, Motion::Kind::run);
+  RC_ASSERT(see(run.engine) == goal);
+}
+
+RC_GTEST_PROP(DebuggedTwin, ReverseRunLandsAtTheLastBreakpointBefore, ()) {
+  Bench bench(random_program());
+  const auto size = static_cast<int>(bench.engine.program().size());
+  for (int i = *rc::gen::inRange(1, 4); i > 0; --i) {
+    break_at(bench.engine, static_cast<std::uint16_t>(*rc::gen::inRange(1, size)));
+  }
+  std::vector<Seen> stops;
+  for (int i = 0; i < 6; ++i) {
+    const Stop stop = value_of(bench.engine.go({Motion::Kind::run, 0, client::Duration(200'000)}, always));
+    if (stop.reason != Stop::Reason::breakpoint) break;
+    stops.push_back(see(bench.engine));
+  }
+  for (int i = *rc::gen::inRange(1, 20); i > 0 && !bench.engine.has_ended(); --i) go(bench.engine, Motion::Kind::step);
+  // Steps may have met some more.
+  while (true) {
+    const Stop stop = go(bench.engine, Motion::Kind::reverse_run);
+    if (stop.reason == Stop::Reason::beginning) break;
+    const Seen here = see(bench.engine);
+    while (!stops.empty() && here.moment < stops.back().moment) RC_FAIL("went past a breakpoint");
+    if (!stops.empty() && stops.back() == here) stops.pop_back();
+  }
+  RC_ASSERT(stops.empty());
+}
+
+}  // namespace
+}  // namespace opentmcl::debug
