@@ -16,7 +16,7 @@ inline Program program_of(std::string_view text, const ModuleDescription& module
   lang::MemoryFiles files;
   lang::AssemblerOptions options;
   options.module = &module;
-  lang::AssemblyResult result = lang::assemble("program.tmc", text, options, files);
+  lang::AssemblyResult result = lang::assemble("program.tmc", std::string(text), options, files);
   if (!result.program) throw std::runtime_error(lang::format(result.diagnostics, result.sources));
   return {std::move(result), module};
 }
