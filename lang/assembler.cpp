@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 #include "lang/encoder.hpp"
@@ -18,6 +19,7 @@
 #include "lang/substitute.hpp"
 #include "lang/suggestion.hpp"
 #include "lang/switched_off.hpp"
+#include "lang/text_encoding.hpp"
 
 namespace opentmcl::lang {
 namespace {
@@ -54,17 +56,6 @@ std::string_view without_leading_blanks(std::string_view text) {
 std::string_view without_quotes(std::string_view name) {
   if (name.size() >= 2 && name.front() == '"' && name.back() == '"') return name.substr(1, name.size() - 2);
   return name;
-}
-
-/// Whether a text is UTF-16, by its byte order mark or by its first two characters.
-bool is_utf16(std::string_view text) {
-  if (text.size() < 4) return false;
-  const std::string_view mark = text.substr(0, 2);
-  if (mark == "\xFF\xFE" || mark == "\xFE\xFF") return true;
-  const auto is_ascii_pair = [&](std::size_t zero, std::size_t letter) {
-    return text[zero] == '\0' && text[zero + 2] == '\0' && text[letter] != '\0' && text[letter + 2] != '\0';
-  };
-  return is_ascii_pair(1, 0) || is_ascii_pair(0, 1);
 }
 
 std::string too_large_text() {
@@ -132,10 +123,10 @@ class Assembler {
     Statement statement;
     while (!lexer.at_end()) {
       read_statement(lexer, statement);
-      if (is_binary(statement, text)) {
-        report_not_text(text.span_of(statement.name),
-                        "it has the byte " + hexadecimal(static_cast<std::uint8_t>(text.of(statement.name).front())) +
-                            "h: is it a program that is assembled already?");
+      if (const std::optional<std::size_t> binary = find_binary(statement, text)) {
+        const auto byte = static_cast<std::uint8_t>(text.characters[*binary]);
+        report_not_text({file, static_cast<std::uint32_t>(*binary), 1},
+                        "it has the byte " + hexadecimal(byte) + "h: is it a program that is assembled already?");
         break;
       }
       handle(statement, text);
@@ -171,12 +162,14 @@ class Assembler {
     }
   }
 
-  /// Nothing more is read of such a file, because all of it would be an error.
-  static bool is_binary(const Statement& statement, const Text& text) {
-    if (statement.kind != StatementKind::invalid_token) return false;
+  /// Where a file turns out to be no text; nothing more is read of it then, because all of it would be an error.
+  static std::optional<std::size_t> find_binary(const Statement& statement, const Text& text) {
+    if (statement.kind != StatementKind::invalid_token) return std::nullopt;
     const Token& token = statement.name;
-    return token.kind == TokenKind::unexpected_character &&
-           static_cast<unsigned char>(text.of(token).front()) < static_cast<unsigned char>(' ');
+    if (token.kind != TokenKind::unexpected_character && token.kind != TokenKind::line_too_long) return std::nullopt;
+    const auto found = find_control_character(text.of(token).substr(0, maximum_line_length));
+    if (!found) return std::nullopt;
+    return token.offset + *found;
   }
 
   void report_not_text(Span span, const std::string& reason) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <string>
@@ -26,7 +27,8 @@ constexpr std::string_view line_ends = "\r\n";
 
 /// One comment that switches warnings off.
 struct SwitchOff {
-  std::size_t line = 0;  ///< offset of its first byte
+  std::size_t line = 0;      ///< offset of its line's first byte
+  std::size_t line_end = 0;  ///< offset behind its line's last byte
   bool is_alone = false;
   DiagnosticKinds kinds;
 };
@@ -56,7 +58,7 @@ std::vector<SwitchOff> read_switches(std::string_view text, const Unknown& unkno
     if (comment > mark) continue;
     if (text.substr(comment, mark - comment).find_first_not_of("/; \t") != std::string_view::npos) continue;
 
-    SwitchOff found{line, tokens.size() == 1, {}};
+    SwitchOff found{line, line_end, tokens.size() == 1, {}};
     std::size_t begin = at + mark_end.size();
     while ((begin = text.find_first_not_of(blanks_and_commas, begin)) < line_end) {
       const std::size_t end = std::min(text.find_first_of(blanks_and_commas, begin), line_end);
@@ -78,8 +80,7 @@ std::vector<SwitchOff> read_switches(std::string_view text, const Unknown& unkno
 /// What the comments of one file switch off.
 class FileSwitches {
  public:
-  explicit FileSwitches(std::string_view text)
-      : text_(text), switches_(read_switches(text, [](std::size_t, std::string_view) {})) {
+  explicit FileSwitches(std::string_view text) : switches_(read_switches(text, [](std::size_t, std::string_view) {})) {
     for (const SwitchOff& found : switches_) {
       if (found.is_alone) everywhere_ |= found.kinds;
     }
@@ -88,14 +89,14 @@ class FileSwitches {
   bool has(DiagnosticKind kind, std::size_t offset) const {
     if (switches_.empty()) return false;
     if (everywhere_[index_of(kind)]) return true;
-    const std::size_t line = line_of(text_, offset);
-    const auto found = std::lower_bound(switches_.begin(), switches_.end(), line,
-                                        [](const SwitchOff& one, std::size_t wanted) { return one.line < wanted; });
-    return found != switches_.end() && found->line == line && found->kinds[index_of(kind)];
+    const auto next = std::upper_bound(switches_.begin(), switches_.end(), offset,
+                                       [](std::size_t wanted, const SwitchOff& one) { return wanted < one.line; });
+    if (next == switches_.begin()) return false;
+    const SwitchOff& last_before = *std::prev(next);
+    return offset <= last_before.line_end && last_before.kinds[index_of(kind)];
   }
 
  private:
-  std::string_view text_;
   std::vector<SwitchOff> switches_;  // in the order of their lines
   DiagnosticKinds everywhere_;
 };

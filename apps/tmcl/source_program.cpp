@@ -2,16 +2,20 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <system_error>
+#include <utility>
 
+#include "apps/tmcl/context.hpp"
+#include "apps/tmcl/terminal.hpp"
 #include "lang/diagnostic.hpp"
 #include "lang/file_provider.hpp"
+#include "lang/module_comment.hpp"
 
 namespace opentmcl::app {
 
@@ -33,27 +37,56 @@ Result<std::string> read_file(const std::string& path) {
   return std::string{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-Result<void> write_file(const std::string& path, const std::string& content) {
-  errno = 0;
-  std::ofstream file(path, std::ios::binary | std::ios::trunc);
-  file.write(content.data(), static_cast<std::streamsize>(content.size()));
-  file.close();
-  if (file) return {};
+Result<std::string> read_source(const std::string& path) {
+  lang::DiskFiles files;
+  lang::FileContent content = files.read(path);
+  switch (content.state) {
+    case lang::FileContent::State::found:
+      return std::move(content.text);
+    case lang::FileContent::State::too_large:
+      return Error{ErrorKind::bad_file,
+                   fmt::format("{} is larger than {} MiB: it is no TMCL source", path, lang::maximum_text_size >> 20U),
+                   {}};
+    case lang::FileContent::State::missing:
+    case lang::FileContent::State::unreadable:
+      break;
+  }
+  Result<std::string> failed = read_file(path);  // which says why
+  if (failed.ok()) return Error{ErrorKind::bad_file, fmt::format("cannot read {}", path), {}};
+  return failed;
+}
+
+Result<const ModuleDescription*> module_of_source(const std::string& path, const std::string& text,
+                                                  const std::string& argument) {
+  if (!argument.empty()) return named_module(argument);
+  const std::optional<lang::ModuleComment> comment = lang::module_named_in(text);
+  if (!comment) return &pd1161;
+  if (comment->module != nullptr) return comment->module;
   return Error{
-      ErrorKind::input_output, fmt::format("cannot write {}: {}", path, std::generic_category().message(errno)), {}};
+      ErrorKind::bad_file,
+      fmt::format("{} says that it is for the module {}, which is not known", path, lang::in_quotes(comment->written)),
+      {}};
+}
+
+std::string summary_of(const std::string& path, const lang::AssemblyResult& result) {
+  const std::string counts = lang::summary(lang::count(result.diagnostics));
+  return counts.empty() ? counts : path + ": " + counts;
+}
+
+void print_diagnostics(const std::string& path, const lang::AssemblyResult& result) {
+  fmt::print(stderr, "{}", lang::format(result.diagnostics, result.sources, {stderr_has_colours()}));
+  // Where there are errors, the command ends with the summary.
+  if (result.program && !result.diagnostics.empty()) fmt::print(stderr, "{}\n", summary_of(path, result));
 }
 
 Result<lang::AssemblyResult> assemble_file(const std::string& path, const lang::AssemblerOptions& options) {
-  const Result<std::string> text = read_file(path);
+  Result<std::string> text = read_source(path);
   if (!text) return text.error();
   lang::DiskFiles files;
-  lang::AssemblyResult result = lang::assemble(path, *text, options, files);
-  fmt::print(stderr, "{}", lang::format(result.diagnostics, result.sources));
+  lang::AssemblyResult result = lang::assemble(path, std::move(*text), options, files);
+  print_diagnostics(path, result);
   if (result.program) return result;
-  const auto errors = std::count_if(result.diagnostics.begin(), result.diagnostics.end(), [](const auto& diagnostic) {
-    return diagnostic.severity() == lang::Severity::error;
-  });
-  return Error{ErrorKind::bad_file, fmt::format("{} has {} error{}", path, errors, errors == 1 ? "" : "s"), {}};
+  return Error{ErrorKind::bad_file, summary_of(path, result), {}};
 }
 
 }  // namespace opentmcl::app

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "client/error.hpp"
 #include "firmware/spec/modules.hpp"
@@ -12,8 +11,19 @@ namespace opentmcl::app {
 /// The whole file, as bytes. Error: bad_file.
 client::Result<std::string> read_file(const std::string& path);
 
-/// Errors: input_output.
-client::Result<void> write_file(const std::string& path, const std::string& content);
+/// The text of a source, which is not larger than any source may be. Error: bad_file.
+client::Result<std::string> read_source(const std::string& path);
+
+/// The module a source is assembled for: the one called `argument`, else the one its comment names, else the PD-1161
+/// (docs/decisions/0074-module-of-a-source.md). Errors: usage, bad_file.
+client::Result<const ModuleDescription*> module_of_source(const std::string& path, const std::string& text,
+                                                          const std::string& argument);
+
+/// "my.tmc: 2 errors, 1 warning"; empty if there are none.
+std::string summary_of(const std::string& path, const lang::AssemblyResult& result);
+
+/// Prints errors, warnings and how many they are on stderr; with colours on a terminal.
+void print_diagnostics(const std::string& path, const lang::AssemblyResult& result);
 
 /// Assembles a file and prints errors and warnings on stderr. Error: bad_file.
 client::Result<lang::AssemblyResult> assemble_file(const std::string& path, const lang::AssemblerOptions& options);
