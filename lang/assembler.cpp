@@ -27,8 +27,9 @@ namespace {
 constexpr std::size_t maximum_include_depth = 32;
 constexpr std::size_t maximum_files = 1000;
 
-/// A guess at the length of a line, which saves large sources from growing their program again and again.
+/// Guesses, which save large sources from growing their program and its names again and again.
 constexpr std::size_t usual_line_length = 24;
+constexpr std::size_t usual_length_per_symbol = 128;
 constexpr std::size_t maximum_guess = 1U << 20;
 
 /// An instruction that uses names which were not defined when it was read; it is encoded again at the end.
@@ -78,6 +79,7 @@ class Assembler {
       const std::size_t lines = std::min(text.size() / usual_line_length, maximum_guess);
       commands_.reserve(lines);
       source_map_.reserve(lines);
+      symbols_.reserve(std::min(text.size() / usual_length_per_symbol, maximum_guess));
       read_text(sources_.add(std::string(file_name), std::move(text)));
       finish();
     }
@@ -385,6 +387,7 @@ class Assembler {
 
   Program program() {
     Program program;
+    program.labels.reserve(symbols_.symbols().size());
     for (const Symbol& symbol : symbols_.symbols()) {
       if (symbol.kind != SymbolKind::label) continue;
       program.labels.push_back({std::string(symbol.name), static_cast<std::uint32_t>(symbol.value), symbol.span});

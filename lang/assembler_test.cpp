@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lang/assembling_test.hpp"
+#include "lang/lexer.hpp"
 
 namespace opentmcl::lang {
 namespace {
@@ -412,6 +413,99 @@ TEST(Limits, TakeLongNamesAndShowThemInPart) {
   EXPECT_THAT(commands_of(name + ": JA " + name + "\nSTOP"), ElementsAre(command(Opcode::ja), command(Opcode::stop)));
   const AssemblyResult result = assemble_text("JA " + name);
   EXPECT_LT(format(result.diagnostics, result.sources).size(), 1500U);
+}
+
+TEST(Limits, AreClearOfLinesWithoutEnd) {
+  const AssemblyResult result = assemble_text(std::string(10'000'000, '(') + "\nMST 1\n");
+  EXPECT_THAT(problems_of(result.diagnostics, result.sources),
+              ElementsAre(Problem{DiagnosticKind::line_too_long, {1, 1}, ""},
+                          Problem{DiagnosticKind::no_such_motor, {2, 5}, "1"}));
+  EXPECT_LT(format(result.diagnostics, result.sources).size(), 1000U);
+}
+
+TEST(Limits, LetALineBeAsLongAsAllowedAndCommentsLonger) {
+  const std::string instruction = "MST 0";
+  const std::string longest = instruction + std::string(maximum_line_length - instruction.size(), ' ');
+  for (const char* end : {"", "\n", "\r\n", "\r"}) {
+    EXPECT_THAT(commands_of(longest + end), ElementsAre(command(Opcode::mst)));
+    EXPECT_THAT(problems_of(longest + " 0" + end), ElementsAre(Problem{DiagnosticKind::line_too_long, {1, 1}, ""}));
+    EXPECT_THAT(commands_of("MST 0 //" + std::string(1'000'000, '/') + end), ElementsAre(command(Opcode::mst)));
+  }
+}
+
+TEST(Limits, TakeAMillionLabels) {
+  constexpr int count = 1'000'000;
+  std::string text;
+  for (int i = 0; i < count; ++i) text += "L" + std::to_string(i) + ":\n";
+  const AssemblyResult result = assemble_text(text + "MST 0\n");
+  ASSERT_TRUE(result.program.has_value());
+  EXPECT_EQ(result.program->labels.size(), static_cast<std::size_t>(count));
+  EXPECT_EQ(result.program->labels.back().address, 0U);
+}
+
+TEST(Limits, StopReadingWhatIsNoText) {
+  std::string garbage;
+  for (unsigned i = 0; i < 100'000; ++i) garbage += static_cast<char>(i * 2654435761U >> 13U);
+  EXPECT_LT(assemble_text(garbage).diagnostics.size(), 50U);
+  const AssemblyResult zeros = assemble_text(std::string(100'000, '\0'));
+  ASSERT_EQ(zeros.diagnostics.size(), 1U);
+  EXPECT_EQ(zeros.diagnostics[0].kind, DiagnosticKind::not_text);
+}
+
+TEST(Limits, HoldForAllFilesTogether) {
+  MemoryFiles files;
+  files.set("large.tmc", "//" + std::string(maximum_text_size / 4, ' '));
+  const AssemblyResult result = assemble(
+      "main.tmc", "#include large.tmc\n#include large.tmc\n#include large.tmc\n#include large.tmc\n", {}, files);
+  ASSERT_EQ(result.diagnostics.size(), 1U);
+  EXPECT_EQ(result.diagnostics[0].kind, DiagnosticKind::file_too_large);
+  EXPECT_EQ(result.sources.size(), 4U);
+  EXPECT_EQ(assemble("main.tmc", std::string(maximum_text_size + 1, ' '), {}, files).diagnostics.at(0).kind,
+            DiagnosticKind::file_too_large);
+}
+
+TEST(Limits, EndFilesThatMultiplyEachOther) {
+  MemoryFiles files;
+  for (int depth = 0; depth < 30; ++depth) {
+    const std::string next = "#include f" + std::to_string(depth + 1) + "\n";
+    files.set("f" + std::to_string(depth), next + next);
+  }
+  const AssemblyResult result = assemble("f0", "#include f1\n#include f1\n", {}, files);
+  EXPECT_FALSE(result.program.has_value());
+  EXPECT_LE(result.sources.size(), 1000U);
+  EXPECT_LE(result.diagnostics.size(), DiagnosticList::maximum_count + 1);
+}
+
+TEST(Limits, SuggestNamesForTheFirstProblemsOnly) {
+  std::string text = "Target: MST 0\n";
+  for (int i = 0; i < 1000; ++i) text += "JA Targt\n";
+  const AssemblyResult result = assemble_text(text);
+  ASSERT_EQ(result.diagnostics.size(), 1000U);
+  EXPECT_EQ(result.diagnostics.front().note, "did you mean Target?");
+  EXPECT_EQ(result.diagnostics.back().note, "");
+}
+
+TEST(Fixes, ChangeTheNameThatWasMistyped) {
+  for (const char* text : {"WIAT TICKS, 0, 5", "MVP AB, 0, 5", "COMP SQRTT(4)", "MST 0 // no-warning: no-such-moter"}) {
+    const AssemblyResult result = assemble_text(text);
+    ASSERT_EQ(result.diagnostics.size(), 1U) << text;
+    ASSERT_TRUE(result.diagnostics[0].fix.has_value()) << text;
+    const Fix& fix = *result.diagnostics[0].fix;
+    std::string mended = text;
+    mended.replace(fix.span.offset, fix.span.length, fix.replacement);
+    EXPECT_TRUE(assemble_text(mended).diagnostics.empty()) << mended;
+  }
+}
+
+TEST(WarningsAsErrors, LeaveNoProgram) {
+  MemoryFiles files;
+  AssemblerOptions options;
+  options.warnings_as_errors = true;
+  const AssemblyResult result = assemble("test.tmc", "MST 1", options, files);
+  EXPECT_FALSE(result.program.has_value());
+  EXPECT_EQ(result.diagnostics.at(0).severity(), Severity::error);
+  EXPECT_NE(format(result.diagnostics, result.sources).find("error: the PD-1161"), std::string::npos);
+  EXPECT_TRUE(assemble("test.tmc", "MST 0", options, files).program.has_value());
 }
 
 RC_GTEST_PROP(Assembler, NeverCrashesAndPlacesDiagnosticsInTheTextWhateverTheBytes, ()) {

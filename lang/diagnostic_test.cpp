@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -65,12 +68,54 @@ TEST(Format, AddsTheNoteAndTheRelatedPlace) {
             "file.tmc:1:1: error: message\nx\n^\nnote: hint\n");
 }
 
+TEST(Format, ColoursForATerminalWhatItSaysInPlainText) {
+  Sources sources;
+  sources.add("file.tmc", "MST 1");
+  const Diagnostic warning{DiagnosticKind::no_such_motor, {0, 4, 1}, "message", "hint", {}};
+  EXPECT_EQ(format(warning, sources, {true}),
+            "\033[1mfile.tmc:1:5: \033[0m\033[1;35mwarning: \033[0m\033[1mmessage\033[0m [no-such-motor]\n"
+            "MST 1\n"
+            "    \033[1;32m^\033[0m\n"
+            "\033[1;36mnote: \033[0mhint\n");
+}
+
+TEST(Format, ShowsWarningsThatAreErrors) {
+  Sources sources;
+  sources.add("file.tmc", "MST 1");
+  Diagnostic warning{DiagnosticKind::no_such_motor, {0, 4, 1}, "message", {}, {}};
+  warning.is_warning_as_error = true;
+  EXPECT_EQ(format(warning, sources), "file.tmc:1:5: error: message [no-such-motor]\nMST 1\n    ^\n");
+}
+
+TEST(Summary, CountsErrorsAndWarnings) {
+  EXPECT_EQ(summary({0, 0}), "");
+  EXPECT_EQ(summary({1, 0}), "1 error");
+  EXPECT_EQ(summary({0, 2}), "2 warnings");
+  EXPECT_EQ(summary({2, 1}), "2 errors, 1 warning");
+}
+
 TEST(DiagnosticKinds, HaveNamesOfTheirOwn) {
   std::set<std::string> names;
-  const int count = static_cast<int>(DiagnosticKind::too_many_warnings) + 1;
-  for (int kind = 0; kind < count; ++kind) names.insert(name_of(static_cast<DiagnosticKind>(kind)));
-  EXPECT_EQ(names.size(), static_cast<std::size_t>(count));
-  EXPECT_EQ(names.count(""), 0U);
+  for (const DiagnosticKindSpec& row : diagnostic_kinds) names.insert(row.name);
+  EXPECT_EQ(names.size(), diagnostic_kind_count);
+  EXPECT_EQ(names.count(std::string(all_warnings_name)), 0U);
+}
+
+TEST(DiagnosticKinds, AreFoundByNameIfTheyAreWarnings) {
+  EXPECT_EQ(find_warning("unused-label"), DiagnosticKind::unused_label);
+  EXPECT_EQ(find_warning("undefined-name"), std::nullopt);
+  EXPECT_EQ(all_warnings().count(),
+            static_cast<std::size_t>(std::count_if(std::begin(diagnostic_kinds), std::end(diagnostic_kinds),
+                                                   [](const auto& row) { return row.severity == Severity::warning; })));
+}
+
+TEST(DiagnosticList, LeavesOutWhatIsSwitchedOff) {
+  DiagnosticKinds off;
+  off.set(index_of(DiagnosticKind::no_such_motor));
+  DiagnosticList list(off);
+  list.add(DiagnosticKind::no_such_motor, {}, "off");
+  list.add(DiagnosticKind::unused_label, {}, "on");
+  EXPECT_EQ(list.size(), 1U);
 }
 
 TEST(InQuotes, ShortensLongText) {

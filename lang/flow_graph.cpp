@@ -5,41 +5,6 @@
 namespace opentmcl::lang {
 namespace {
 
-constexpr Flow flow_of_opcode(Opcode opcode) {
-  switch (opcode) {
-    case Opcode::ja:
-      return Flow::jump;
-    case Opcode::jc:
-    case Opcode::djnz:
-      return Flow::branch;
-    case Opcode::csub:
-    case Opcode::call:
-      return Flow::call;
-    case Opcode::rsub:
-      return Flow::return_from_call;
-    case Opcode::reti:
-      return Flow::return_from_interrupt;
-    case Opcode::rst:
-      return Flow::restart;
-    case Opcode::stop:
-      return Flow::stop;
-    default:
-      return Flow::next;
-  }
-}
-
-struct FlowTable {
-  Flow flows[256];
-};
-
-consteval FlowTable make_flow_table() {
-  FlowTable table{};
-  for (int opcode = 0; opcode < 256; ++opcode) table.flows[opcode] = flow_of_opcode(static_cast<Opcode>(opcode));
-  return table;
-}
-
-constexpr FlowTable flow_table = make_flow_table();
-
 /// For each address the jumps to it: a list that goes from one jump to the next.
 class Jumps {
  public:
@@ -66,20 +31,6 @@ class Jumps {
 
 }  // namespace
 
-Flow flow_of(std::uint8_t opcode) {
-  return flow_table.flows[opcode];
-}
-
-bool FlowGraph::goes_on(Address address) const {
-  const Flow flow = this->flow(address);
-  return flow == Flow::next || flow == Flow::branch || flow == Flow::call;
-}
-
-bool FlowGraph::has_target(Address address) const {
-  const std::int32_t value = command(address).value;
-  return value >= 0 && static_cast<Address>(value) < size();
-}
-
 void reach(const FlowGraph& graph, const std::vector<Address>& entries, Steps steps, const AddressSet& closed,
            AddressSet& reached) {
   std::vector<Address> open;
@@ -90,12 +41,23 @@ void reach(const FlowGraph& graph, const std::vector<Address>& entries, Steps st
   };
   for (const Address entry : entries) enter(entry);
   while (!open.empty()) {
-    const Address address = open.back();
+    Address address = open.back();
     open.pop_back();
-    for_each_step(graph, address, steps, [&](Address successor) {
-      const bool is_call = graph.flow(address) == Flow::call && successor == graph.target(address);
-      if (is_call || !closed[successor]) enter(successor);
-    });
+    // Instructions that follow each other are the common case and need no place on the stack.
+    for (bool goes_on = true; goes_on;) {
+      goes_on = false;
+      for_each_step(graph, address, steps, [&](Address successor) {
+        const bool is_call = graph.flow(address) == Flow::call && successor == graph.target(address);
+        if (reached[successor] || (!is_call && closed[successor])) return;
+        if (successor == address + 1 && !is_call) {
+          reached[successor] = true;
+          goes_on = true;
+        } else {
+          enter(successor);
+        }
+      });
+      ++address;
+    }
   }
 }
 

@@ -23,7 +23,44 @@ enum class Flow : std::uint8_t {
   stop,
 };
 
-Flow flow_of(std::uint8_t opcode);
+constexpr Flow flow_of_opcode(Opcode opcode) {
+  switch (opcode) {
+    case Opcode::ja:
+      return Flow::jump;
+    case Opcode::jc:
+    case Opcode::djnz:
+      return Flow::branch;
+    case Opcode::csub:
+    case Opcode::call:
+      return Flow::call;
+    case Opcode::rsub:
+      return Flow::return_from_call;
+    case Opcode::reti:
+      return Flow::return_from_interrupt;
+    case Opcode::rst:
+      return Flow::restart;
+    case Opcode::stop:
+      return Flow::stop;
+    default:
+      return Flow::next;
+  }
+}
+
+struct FlowTable {
+  Flow flows[256];
+};
+
+consteval FlowTable make_flow_table() {
+  FlowTable table{};
+  for (int opcode = 0; opcode < 256; ++opcode) table.flows[opcode] = flow_of_opcode(static_cast<Opcode>(opcode));
+  return table;
+}
+
+inline constexpr FlowTable flow_table = make_flow_table();
+
+constexpr Flow flow_of(std::uint8_t opcode) {
+  return flow_table.flows[opcode];
+}
 
 /// Addresses of a program, each of them in the set or not.
 using AddressSet = std::vector<bool>;
@@ -41,9 +78,15 @@ class FlowGraph {
   Flow flow(Address address) const { return flow_of((*commands_)[address].opcode); }
 
   /// Whether the instruction behind this one can follow, with a call seen as one step.
-  bool goes_on(Address address) const;
+  bool goes_on(Address address) const {
+    const Flow flow = this->flow(address);
+    return flow == Flow::next || flow == Flow::branch || flow == Flow::call;
+  }
   /// Whether the operand is an address of an instruction of this program.
-  bool has_target(Address address) const;
+  bool has_target(Address address) const {
+    const std::int32_t value = command(address).value;
+    return value >= 0 && static_cast<Address>(value) < size();
+  }
   Address target(Address address) const { return static_cast<Address>((*commands_)[address].value); }
 
  private:

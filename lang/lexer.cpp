@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cstdint>
+#include <cstring>
 #include <system_error>
 
 #include "lang/names.hpp"
@@ -59,9 +60,23 @@ bool is_comment(const char* at, const char* end) {
   return *at == ';' || (*at == '/' && at + 1 != end && at[1] == '/');
 }
 
+/// Most comments end within this many characters; they are searched in pieces of it, because a text may have only one
+/// of the two characters that end lines.
+constexpr std::ptrdiff_t comment_piece = 128;
+
+const char* find_character(const char* at, const char* end, char character) {
+  const void* const found = std::memchr(at, character, static_cast<std::size_t>(end - at));
+  return found == nullptr ? end : static_cast<const char*>(found);
+}
+
 const char* find_line_end(const char* at, const char* end) {
-  while (at != end && class_of(*at) != CharacterClass::line_end) ++at;
-  return at;
+  while (at != end) {
+    const char* const piece_end = end - at > comment_piece ? at + comment_piece : end;
+    const char* const found = find_character(at, find_character(at, piece_end, '\n'), '\r');
+    if (found != piece_end) return found;
+    at = piece_end;
+  }
+  return end;
 }
 
 /// Value of a digit in base 16, or 16 for what is none.

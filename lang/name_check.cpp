@@ -33,11 +33,14 @@ class UnusedLabels {
     }
     reached_ = reachable(graph, entries, {true, true});
     AddressSet returns(graph.size());
+    bool returns_anywhere = false;
     for (Address address = 0; address < graph.size(); ++address) {
       const Flow flow = graph.flow(address);
-      returns[address] = flow == Flow::return_from_call || flow == Flow::return_from_interrupt;
+      if (flow != Flow::return_from_call && flow != Flow::return_from_interrupt) continue;
+      returns[address] = true;
+      returns_anywhere = true;
     }
-    returning_ = leading_to(graph, returns, AddressSet(graph.size()));
+    returning_ = returns_anywhere ? leading_to(graph, returns, AddressSet(graph.size())) : returns;
   }
 
   /// Why a label nothing refers to is of no use, or nullptr if the host may start the program there.

@@ -1,5 +1,7 @@
 #include "lang/program_check.hpp"
 
+#include <algorithm>
+
 #include "firmware/spec/instructions.hpp"
 
 namespace opentmcl::lang {
@@ -12,6 +14,11 @@ std::vector<InterruptEntry> find_interrupts(const FlowGraph& graph) {
     if (graph.has_target(address)) entries.push_back({address, graph.target(address)});
   }
   return entries;
+}
+
+bool has_calls(const CheckedProgram& program) {
+  return std::any_of(program.commands.begin(), program.commands.end(),
+                     [](const Command& command) { return flow_of(command.opcode) == Flow::call; });
 }
 
 /// A JA behind a JA is a row of a table whose rows the host starts by their addresses.
@@ -31,7 +38,7 @@ FlowFacts::FlowFacts(const CheckedProgram& program)
       interrupts(find_interrupts(graph)),
       starts(find_starts(graph)),
       main_alone(reachable(graph, starts, {false, true})),
-      main(reachable(graph, starts, {true, true})),
+      main(has_calls(program) ? reachable(graph, starts, {true, true}) : main_alone),
       interrupt(graph.size()) {
   std::vector<Address> routines;
   for (const InterruptEntry& entry : interrupts) {

@@ -9,6 +9,11 @@ namespace {
 
 constexpr std::size_t initial_slots = 512;
 
+/// A quarter of the slots stays free: a fuller table has longer searches, an emptier one more cache misses.
+constexpr bool has_room_for(std::size_t symbols, std::size_t slots) {
+  return 4 * symbols <= 3 * slots;
+}
+
 }  // namespace
 
 SymbolTable::SymbolTable() : slots_(initial_slots) {}
@@ -30,8 +35,8 @@ const Symbol* SymbolTable::insert(const Symbol& symbol) {
   const std::uint32_t hash = hash_of_name(symbol.name);
   std::size_t at = slot_of(symbol.name, hash);
   if (slots_[at].number != 0) return &symbols_[slots_[at].number - 1];
-  if (2 * (symbols_.size() + 1) > slots_.size()) {
-    grow();
+  if (!has_room_for(symbols_.size() + 1, slots_.size())) {
+    resize(2 * slots_.size());
     at = slot_of(symbol.name, hash);
   }
   symbols_.push_back(symbol);
@@ -49,8 +54,15 @@ std::size_t SymbolTable::slot_of(std::string_view name, std::uint32_t hash) cons
   return at;
 }
 
-void SymbolTable::grow() {
-  std::vector<Slot> larger(2 * slots_.size());
+void SymbolTable::reserve(std::size_t count) {
+  symbols_.reserve(count);
+  std::size_t size = slots_.size();
+  while (!has_room_for(count, size)) size *= 2;
+  if (size != slots_.size()) resize(size);
+}
+
+void SymbolTable::resize(std::size_t size) {
+  std::vector<Slot> larger(size);
   const std::size_t mask = larger.size() - 1;
   for (const Slot& slot : slots_) {
     if (slot.number == 0) continue;

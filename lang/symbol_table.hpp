@@ -25,6 +25,9 @@ class SymbolTable {
  public:
   SymbolTable();
 
+  /// Makes room for so many symbols, which saves large sources from growing the table again and again.
+  void reserve(std::size_t count);
+
   /// Symbols in the order of their definition.
   const std::vector<Symbol>& symbols() const { return symbols_; }
 
@@ -43,7 +46,7 @@ class SymbolTable {
 
   /// The slot of this name, or the free one where it belongs.
   std::size_t slot_of(std::string_view name, std::uint32_t hash) const;
-  void grow();
+  void resize(std::size_t size);
 
   std::vector<Symbol> symbols_;
   std::vector<Slot> slots_;  // their number is a power of two
