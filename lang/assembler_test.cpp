@@ -281,6 +281,14 @@ TEST(Warnings, TellWhatTheModuleWillRefuse) {
   }
 }
 
+TEST(Warnings, SayThatSpeedsAreNoStepsPerSecond) {
+  for (const char* text : {"ROR 0, 51200", "SAP 4, 0, 51200", "SAP 5, 0, 51200"}) {
+    const AssemblyResult result = assemble_text(text);
+    EXPECT_NE(result.diagnostics.at(0).note.find("not steps per second"), std::string::npos) << text;
+  }
+  EXPECT_EQ(assemble_text("SAP 140, 0, 9").diagnostics.at(0).note, "");
+}
+
 TEST(Warnings, AreNotGivenForWhatTheModuleTakes) {
   for (const char* text : {"MVP COORD, 255, 3", "SCO 0, 255, 0", "GCO 3, 255", "WAIT TICKS, 7, 10", "GGP 255, 2",
                            "SGP 0, 3, 1000", "EI 255", "GGP 5, 1", "RFS STATUS, 0"}) {

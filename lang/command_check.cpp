@@ -66,6 +66,18 @@ std::string range_text(std::int32_t minimum, std::int32_t maximum) {
   return std::to_string(minimum) + "..." + std::to_string(maximum);
 }
 
+/// What a user who comes from modules that take physical units has to know.
+const char* note_on(Unit unit) {
+  switch (unit) {
+    case Unit::internal_velocity:
+      return "speeds are internal units of these modules, not steps per second";
+    case Unit::internal_acceleration:
+      return "accelerations are internal units of these modules, not steps per second squared";
+    default:
+      return "";
+  }
+}
+
 class CommandCheck {
  public:
   CommandCheck(const InstructionSpec& instruction, const Command& command, const ModuleDescription& module,
@@ -89,7 +101,8 @@ class CommandCheck {
     if (value < operand.minimum || value > operand.maximum) {
       diagnostics_->add(DiagnosticKind::operand_out_of_range, span_of(index),
                         std::to_string(value) + " is outside " + range_text(operand.minimum, operand.maximum) +
-                            ", the range of this operand of " + instruction_->mnemonic);
+                            ", the range of this operand of " + instruction_->mnemonic,
+                        operand.kind == OperandKind::velocity ? note_on(Unit::internal_velocity) : "");
       return;
     }
     switch (operand.kind) {
@@ -130,7 +143,7 @@ class CommandCheck {
       return missing(index, "axis parameter " + std::to_string(command_->type));
     }
     const AxisParameterSpec& parameter = axis_parameters[row];
-    check_parameter(index, parameter.in(module_->id), "axis parameter", parameter.name);
+    check_parameter(index, parameter, "axis parameter");
   }
 
   void check_global_parameter(std::size_t index) {
@@ -152,7 +165,7 @@ class CommandCheck {
       return missing(index, "global parameter " + std::to_string(command_->type) + " in bank 0");
     }
     const GlobalParameterSpec& parameter = global_parameters[row];
-    check_parameter(index, parameter.in(module_->id), "global parameter", parameter.name);
+    check_parameter(index, parameter, "global parameter");
   }
 
   void check_interrupt_setting(std::size_t index) {
@@ -173,9 +186,13 @@ class CommandCheck {
                       "the " + describe(*module_) + " has no " + what);
   }
 
-  void check_parameter(std::size_t index, const ParameterColumn& column, const char* what, const char* name) {
+  template <typename Row>
+  void check_parameter(std::size_t index, const Row& row, const char* what) {
+    const ParameterColumn& column = row.in(module_->id);
     const Access wanted = wanted_access(instruction_->opcode);
-    const auto described = [&] { return std::string(what) + " " + std::to_string(command_->type) + " (" + name + ")"; };
+    const auto described = [&] {
+      return std::string(what) + " " + std::to_string(command_->type) + " (" + row.name + ")";
+    };
     if (wanted != Access::none && !allows(column.access, wanted)) {
       const char* const reason = wanted == Access::w   ? " can only be read"
                                  : wanted == Access::r ? " can only be written"
@@ -187,7 +204,8 @@ class CommandCheck {
     if (!sets_value || (command_->value >= column.minimum && command_->value <= column.maximum)) return;
     diagnostics_->add(DiagnosticKind::parameter_out_of_range, span_of(operand_count(*instruction_) - 1),
                       std::to_string(command_->value) + " is outside " + range_text(column.minimum, column.maximum) +
-                          ", the range of " + described());
+                          ", the range of " + described(),
+                      note_on(row.unit));
   }
 
   const InstructionSpec* instruction_;
