@@ -3,19 +3,12 @@
 
 #include <filesystem>
 #include <string>
-#include <string_view>
 
 #include "lang/assembling_test.hpp"
+#include "lang/module_comment.hpp"
 
 namespace opentmcl::lang {
 namespace {
-
-/// A line `// module: pd1161` in the head of a program; without one it is for both modules.
-bool is_for(std::string_view program, const ModuleDescription& module) {
-  const std::string_view key = "\n// module: ";
-  const std::size_t place = program.find(key);
-  return place == std::string_view::npos || program.substr(place + key.size()).starts_with(module.argument);
-}
 
 TEST(Examples, AssembleWithoutComplaintForEveryModuleThatTheyAreFor) {
   DiskFiles files;
@@ -25,8 +18,9 @@ TEST(Examples, AssembleWithoutComplaintForEveryModuleThatTheyAreFor) {
     ++count;
     const FileContent content = files.read(entry.path().string());
     ASSERT_EQ(content.state, FileContent::State::found) << entry.path();
+    const auto comment = module_named_in(content.text);
     for (const ModuleDescription& module : modules) {
-      if (!is_for(content.text, module)) continue;
+      if (comment && comment->module != &module) continue;
       AssemblerOptions options;
       options.module = &module;
       const AssemblyResult result = assemble(entry.path().string(), content.text, options, files);
