@@ -17,8 +17,9 @@ packages_to_check=(
   gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib
 )
 
-# Of Debian 12, Node.js 18 and npm 9. Who has an npm of another origin keeps it: see install_npm.
-packages_for_editors=(nodejs npm)
+# Of Debian 12, Node.js 18 and npm 9, which trust the certificates of the system. Who has an npm of another origin keeps it:
+# see install_npm.
+packages_for_editors=(nodejs npm ca-certificates)
 
 # say MESSAGE…: what a script does goes to stderr; stdout belongs to the program it starts.
 say() {

@@ -4,7 +4,10 @@ const name = '[A-Za-z_][A-Za-z0-9_]*';
 const number = [
   { name: 'constant.numeric.hexadecimal.tmcl', match: '\\$[0-9A-Fa-f]+\\b' },
   { name: 'constant.numeric.binary.tmcl', match: '%[01]+\\b' },
-  { name: 'constant.numeric.decimal.tmcl', match: '(?<![A-Za-z0-9_])(?:[0-9]+(?:\\.[0-9]*)?|\\.[0-9]+)(?:[eE][+-]?[0-9]+)?\\b' },
+  {
+    name: 'constant.numeric.decimal.tmcl',
+    match: '(?<![A-Za-z0-9_])(?:[0-9]+(?:\\.[0-9]*)?|\\.[0-9]+)(?:[eE][+-]?[0-9]+)?\\b',
+  },
 ];
 
 /** A pattern for whole words, longest first, in any case. */

@@ -36,7 +36,8 @@ export class TmclConfigurationProvider implements vscode.DebugConfigurationProvi
     const configuration = isEmpty ? { ...onVirtualModule } : given;
     if (configuration['program'] === undefined) {
       void vscode.window.showErrorMessage(
-        `TMCL: the configuration '${configuration.name}' has no 'program': write the path of a TMCL source there, or "\${file}".`,
+        `TMCL: the configuration '${configuration.name}' has no 'program': ` +
+          'write the path of a TMCL source there, or "${file}".',
       );
       return undefined;
     }

@@ -16,7 +16,7 @@ async function isProgram(path: string): Promise<boolean> {
   }
 }
 
-/** Where a program may be: a path as it stands, from the home folder or from the workspace; a name in each folder of PATH. */
+/** Where a program may be: a path as it stands, from home or from the workspace; a name in each folder of PATH. */
 function places(name: string): string[] {
   if (name.startsWith('~/')) return [join(homedir(), name.slice(2))];
   if (isAbsolute(name)) return [name];

@@ -68,7 +68,8 @@ test('the modules to choose from are those of tmcl', () => {
   const modules = JSON.parse(execFileSync(tmcl, ['spec', '--json'], { encoding: 'utf8', maxBuffer: 1 << 26 })).modules;
   const names = modules.map((module) => module.argument).sort();
   const { launch, attach } = manifest.contributes.debuggers[0].configurationAttributes;
-  for (const choice of [manifest.contributes.configuration.properties['tmcl.module'], launch.properties.module, attach.properties.module]) {
+  const setting = manifest.contributes.configuration.properties['tmcl.module'];
+  for (const choice of [setting, launch.properties.module, attach.properties.module]) {
     assert.deepEqual([...choice.enum].sort(), names);
   }
 });
