@@ -2,10 +2,9 @@
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
-import Module, { createRequire } from 'node:module';
 import { join } from 'node:path';
 import test from 'node:test';
-import { makePackage, output, tmcl } from '../scripts/package.mjs';
+import { makePackage, tmcl } from '../scripts/package.mjs';
 import { unpackedExtension } from './package.mjs';
 
 const files = await unpackedExtension();
@@ -88,56 +87,3 @@ test('the same sources give the same bytes', async () => {
   const first = readFileSync(await makePackage());
   assert.deepEqual(readFileSync(await makePackage()), first);
 });
-
-test('the extension loads, and says what to do when there is no tmcl', async () => {
-  const messages = [];
-  const registered = [];
-  const settings = { path: 'no-such-program', module: 'pd1161' };
-  // As much of the editor as activation touches; everything else must not be touched, and is an error.
-  const vscode = strict('vscode', {
-    commands: strict('commands', { registerCommand: (id) => registered.push(id) && disposable() }),
-    debug: strict('debug', {
-      registerDebugAdapterDescriptorFactory: (type) => registered.push(`adapter ${type}`) && disposable(),
-      registerDebugConfigurationProvider: (type) => registered.push(`configurations ${type}`) && disposable(),
-    }),
-    window: strict('window', { showErrorMessage: async (message) => void messages.push(message) }),
-    workspace: strict('workspace', {
-      workspaceFolders: [],
-      getConfiguration: () => ({ get: (key, otherwise) => settings[key] ?? otherwise }),
-      onDidChangeConfiguration: () => disposable(),
-    }),
-    DebugConfigurationProviderTriggerKind: { Initial: 1, Dynamic: 2 },
-  });
-  const extension = load(vscode);
-  await extension.activate({ subscriptions: [] });
-  assert.equal(messages.length, 1);
-  assert.match(messages[0], /'no-such-program' was not found.*\.\/run --build-only.*tmcl\.path/);
-  assert.deepEqual(registered, ['tmcl.restartServer', 'adapter tmcl', 'configurations tmcl', 'configurations tmcl']);
-  assert.deepEqual(manifest.contributes.commands.map((row) => row.command), ['tmcl.restartServer']);
-  await extension.deactivate();
-});
-
-function disposable() {
-  return { dispose() {} };
-}
-
-function strict(what, content) {
-  return new Proxy(content, {
-    get(target, key) {
-      if (key in target || typeof key === 'symbol') return target[key];
-      // Classes that the language client derives from when it is loaded.
-      return class {};
-    },
-  });
-}
-
-/** Loads extension.js with `vscode` in the place of the editor's. */
-function load(vscode) {
-  const loader = Module._load;
-  Module._load = (request, ...others) => (request === 'vscode' ? vscode : loader(request, ...others));
-  try {
-    return createRequire(import.meta.url)(join(output, 'extension/extension.js'));
-  } finally {
-    Module._load = loader;
-  }
-}
