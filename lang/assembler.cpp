@@ -9,6 +9,7 @@
 #include "lang/encoder.hpp"
 #include "lang/expression.hpp"
 #include "lang/hexadecimal.hpp"
+#include "lang/include_directive.hpp"
 #include "lang/include_files.hpp"
 #include "lang/include_search.hpp"
 #include "lang/instruction_table.hpp"
@@ -47,17 +48,6 @@ struct Text {
   Span span_of(const Token& token) const { return {file, token.offset, token.length}; }
   std::string_view of(const Token& token) const { return token.text(characters); }
 };
-
-std::string_view without_leading_blanks(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\v\f");
-  return first == std::string_view::npos ? std::string_view() : text.substr(first);
-}
-
-/// File names are written bare, or between quotation marks.
-std::string_view without_quotes(std::string_view name) {
-  if (name.size() >= 2 && name.front() == '"' && name.back() == '"') return name.substr(1, name.size() - 2);
-  return name;
-}
 
 std::string too_large_text() {
   return " is larger than " + std::to_string(maximum_text_size >> 20) + " MiB";
@@ -263,21 +253,18 @@ class Assembler {
   // ---- directives
 
   void follow_directive(const Token& token, const Text& text) {
-    const std::string_view after_sign = without_leading_blanks(text.of(token).substr(1));
-    std::size_t length = 0;
-    while (length < after_sign.size() && continues_name(after_sign[length])) ++length;
-    if (!equal_ignoring_case(after_sign.substr(0, length), "include")) {
+    const std::optional<std::string_view> file_name = included_file_name(text.of(token));
+    if (!file_name) {
       diagnostics_.add(DiagnosticKind::unknown_directive, text.span_of(token),
                        "the only directive is #include, not " + in_quotes(text.of(token)));
       return;
     }
-    const std::string_view name = without_quotes(without_leading_blanks(after_sign.substr(length)));
-    if (name.empty()) {
+    if (file_name->empty()) {
       diagnostics_.add(DiagnosticKind::missing_file_name, text.span_of(token), "expected a file name after #include");
       return;
     }
-    const auto offset = static_cast<std::uint32_t>(name.data() - text.characters.data());
-    include_file(name, {text.file, offset, static_cast<std::uint32_t>(name.size())});
+    const auto offset = static_cast<std::uint32_t>(file_name->data() - text.characters.data());
+    include_file(*file_name, {text.file, offset, static_cast<std::uint32_t>(file_name->size())});
   }
 
   void include_file(std::string_view name, Span place) {

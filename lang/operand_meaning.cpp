@@ -6,37 +6,11 @@
 #include "firmware/spec/global_parameters.hpp"
 #include "firmware/spec/interrupts.hpp"
 #include "firmware/spec/io_ports.hpp"
-#include "firmware/spec/lookup.hpp"
 #include "lang/instruction_table.hpp"
+#include "lang/table_rows.hpp"
 
 namespace opentmcl::lang {
 namespace {
-
-const AxisParameterSpec* find_axis_parameter(std::uint8_t number, const ModuleDescription& module) {
-  const std::uint8_t row = axis_parameter_rows[number];
-  if (row == no_row || axis_parameters[row].in(module.id).access == Access::none) return nullptr;
-  return &axis_parameters[row];
-}
-
-const GlobalParameterSpec* find_module_setting(std::uint8_t number, const ModuleDescription& module) {
-  const std::uint8_t row = global_parameter_rows[number];
-  if (row == no_row || global_parameters[row].in(module.id).access == Access::none) return nullptr;
-  return &global_parameters[row];
-}
-
-const InterruptSpec* find_interrupt(std::uint8_t number, const ModuleDescription& module) {
-  const std::uint8_t row = interrupt_row_in(module.id, number);
-  return row == no_row ? nullptr : &interrupts[row];
-}
-
-const IoPortSpec* find_port(std::uint8_t port, std::uint8_t bank, const ModuleDescription& module) {
-  for (const IoPortSpec& row : io_ports) {
-    if (row.port == port && static_cast<std::uint8_t>(row.bank) == bank && contains(row.modules, module.id)) {
-      return &row;
-    }
-  }
-  return nullptr;
-}
 
 Unit unit_of_global_parameter(const Command& command, const ModuleDescription& module) {
   switch (static_cast<Bank>(command.motor)) {

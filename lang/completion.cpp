@@ -1,0 +1,225 @@
+#include "lang/completion.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <utility>
+
+#include "firmware/spec/axis_parameters.hpp"
+#include "firmware/spec/global_parameters.hpp"
+#include "firmware/spec/interrupts.hpp"
+#include "firmware/spec/io_ports.hpp"
+#include "lang/include_directive.hpp"
+#include "lang/instruction_table.hpp"
+#include "lang/lexer.hpp"
+#include "lang/names.hpp"
+#include "lang/source_line.hpp"
+
+namespace opentmcl::lang {
+namespace {
+
+using Kind = CursorPlace::Kind;
+
+bool is_blank(std::string_view text) {
+  return text.find_first_not_of(" \t\v\f") == std::string_view::npos;
+}
+
+/// A comment leaves no token: something else than blanks between the last one and the cursor is one.
+bool is_in_comment(std::string_view text, const SourceLine& line, std::size_t line_start, std::size_t offset) {
+  std::size_t code_end = line.token_count() == 0 ? line_start : line.token(line.token_count() - 1).end();
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (code_end == 0 && text.substr(0, byte_order_mark.size()) == byte_order_mark) code_end = byte_order_mark.size();
+  return offset > code_end && !is_blank(text.substr(code_end, offset - code_end));
+}
+
+/// `#include`, a name, or both, as far as they are written.
+CursorPlace place_in_directive(std::string_view text, const Token& directive) {
+  CursorPlace place;
+  place.kind = Kind::directive;
+  place.start = directive.offset;
+  const std::optional<std::string_view> name = included_file_name(directive.text(text));
+  if (!name) return place;
+  // The blanks behind `#include` are no part of the directive when nothing follows them.
+  const bool is_missing = name->empty();
+  if (is_missing && text.size() == directive.end()) return place;
+  place.kind = Kind::file_name;
+  place.start =
+      is_missing ? static_cast<std::uint32_t>(text.size()) : static_cast<std::uint32_t>(name->data() - text.data());
+  if (text.substr(place.start, 1) == "\"") ++place.start;
+  return place;
+}
+
+class CompletionList {
+ public:
+  explicit CompletionList(const ModuleDescription& module) : module_(&module) {}
+
+  std::vector<Completion> take() { return std::move(list_); }
+
+  void add_statements() {
+    for (const InstructionSpec& row : instructions) {
+      if (row.mnemonic == nullptr || !contains(row.modules, module_->id)) continue;
+      add(CompletionKind::mnemonic, row.mnemonic, row.mnemonic, explain(row, *module_));
+    }
+    add_directive();
+  }
+
+  void add_directive() {
+    add(CompletionKind::directive, "#include ", "#include", {"#include FILE", {"Reads another file here."}});
+  }
+
+  /// What chooses something of the module by a word or a number.
+  void add_choices(OperandKind kind) {
+    const KeywordSet set = keywords_of(kind);
+    for (std::size_t i = 0; i < set.count; ++i) {
+      const Keyword& word = set.words[i];
+      if (word.value != set.excluded) add(CompletionKind::word, word.word, word.word, explain(word, kind));
+    }
+    switch (kind) {
+      case OperandKind::motor:
+        for (int motor = 0; motor < module_->axis_count; ++motor) add_number(motor, "motor", {});
+        break;
+      case OperandKind::axis_parameter:
+        add_parameters(axis_parameters, axis_parameter_count);
+        break;
+      case OperandKind::global_parameter:
+        add_parameters(global_parameters, global_parameter_count);
+        break;
+      case OperandKind::interrupt:
+        for (const InterruptSpec& row : interrupts) {
+          if (contains(row.modules, module_->id)) add_number(static_cast<int>(row.number), row.name, explain(row));
+        }
+        break;
+      case OperandKind::port:
+        add_ports();
+        break;
+      default:
+        break;
+    }
+  }
+
+  void add_functions() {
+    for (std::size_t i = 0; i < function_count; ++i) {
+      add(CompletionKind::function, std::string(functions[i].name) + "(", functions[i].name, explain(functions[i]));
+    }
+  }
+
+  void add_symbols(const SymbolTable& symbols, FileId file, std::size_t offset, bool with_labels) {
+    for (const Symbol& symbol : symbols.symbols()) {
+      const bool is_label = symbol.kind == SymbolKind::label;
+      const bool is_behind = symbol.span.file == file && symbol.span.offset >= offset;
+      if (is_label ? !with_labels : is_behind) continue;
+      add(is_label ? CompletionKind::label : CompletionKind::constant, std::string(symbol.name),
+          std::string(symbol.name), explain(symbol));
+    }
+  }
+
+ private:
+  void add(CompletionKind kind, std::string text, std::string label, Explanation explanation) {
+    list_.push_back({kind, std::move(text), std::move(label), std::move(explanation)});
+  }
+
+  void add_number(int number, const std::string& name, Explanation explanation) {
+    const std::string text = std::to_string(number);
+    add(CompletionKind::number, text, text + " " + name, std::move(explanation));
+  }
+
+  template <class Row>
+  void add_parameters(const Row* rows, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (rows[i].in(module_->id).access == Access::none) continue;
+      add_number(static_cast<int>(rows[i].number), rows[i].name, explain(rows[i], *module_));
+    }
+  }
+
+  void add_ports() {
+    for (const IoPortSpec& row : io_ports) {
+      if (!contains(row.modules, module_->id)) continue;
+      // The bank has an operand of its own.
+      const std::string text = std::to_string(row.port);
+      const std::string bank = std::to_string(static_cast<int>(row.bank));
+      add(CompletionKind::number, text, text + " bank " + bank + ": " + row.description, explain(row));
+    }
+  }
+
+  const ModuleDescription* module_;
+  std::vector<Completion> list_;
+};
+
+}  // namespace
+
+const OperandSpec* CursorPlace::spec() const {
+  const bool exists = kind == Kind::operand && instruction != nullptr && operand < operand_count(*instruction);
+  return exists ? &instruction->operands[operand] : nullptr;
+}
+
+CursorPlace place_of_cursor(std::string_view text, std::size_t offset) {
+  // What comes behind the cursor has nothing to say about what may be written at it.
+  const std::size_t line_start = start_of_line(text, offset);
+  const std::string_view before = text.substr(0, offset);
+  SourceLine line;
+  Lexer lexer(before, line_start);
+  read_source_line(lexer, before, line);
+
+  CursorPlace place;
+  place.start = static_cast<std::uint32_t>(offset);
+  if (is_in_comment(before, line, line_start, offset)) return place;
+  const std::size_t count = line.token_count();
+  const Token* const last = count == 0 ? nullptr : &line.token(count - 1);
+  if (last != nullptr && last->kind == TokenKind::directive) return place_in_directive(before, *last);
+  const bool is_written =
+      last != nullptr && last->end() == offset && (last->kind == TokenKind::name || last->kind == TokenKind::number);
+  if (is_written) place.start = last->offset;
+
+  const std::size_t finished = is_written ? count - 1 : count;  // tokens before what is being written
+  if (finished == 2 * line.statement.label_count) {
+    // A number begins no statement.
+    if (!is_written || last->kind == TokenKind::name) place.kind = Kind::statement;
+    return place;
+  }
+  const Token& previous = line.token(finished - 1);
+  const bool follows_value =
+      previous.kind == TokenKind::name || previous.kind == TokenKind::number || previous.kind == TokenKind::close;
+  const bool is_first = finished == line.first_operand_token;
+  if (follows_value && !is_first) return place;
+  const bool is_constant = line.roles[2 * line.statement.label_count] == TokenRole::constant;
+  place.kind = is_constant ? Kind::expression : Kind::operand;
+  place.instruction = line.instruction;
+  place.operand = static_cast<std::size_t>(std::count_if(
+      line.statement.tokens.begin(), line.statement.tokens.begin() + static_cast<std::ptrdiff_t>(finished),
+      [](const Token& token) { return token.kind == TokenKind::comma; }));
+  place.is_alone = is_first || previous.kind == TokenKind::comma;
+  return place;
+}
+
+std::vector<Completion> completions(const CursorPlace& place, FileId file, std::size_t offset,
+                                    const SymbolTable& symbols, const ModuleDescription& module) {
+  CompletionList list(module);
+  switch (place.kind) {
+    case Kind::nothing:
+    case Kind::file_name:
+      break;
+    case Kind::directive:
+      list.add_directive();
+      break;
+    case Kind::statement:
+      list.add_statements();
+      break;
+    case Kind::expression:
+      list.add_symbols(symbols, file, offset, false);
+      list.add_functions();
+      break;
+    case Kind::operand: {
+      const OperandSpec* const operand = place.spec();
+      if (operand == nullptr) break;
+      if (place.is_alone) list.add_choices(operand->kind);
+      // Names for numbers are allowed where a word belongs, but nobody wants to read them.
+      if (takes_words(operand->kind)) break;
+      list.add_symbols(symbols, file, offset, operand->kind == OperandKind::address);
+      if (operand->field == Field::value && operand->kind != OperandKind::address) list.add_functions();
+      break;
+    }
+  }
+  return list.take();
+}
+
+}  // namespace opentmcl::lang
