@@ -16,6 +16,7 @@ void add_farm(CLI::App& app, Context& context);
 void add_asm(CLI::App& app, Context& context);
 void add_dis(CLI::App& app, Context& context);
 void add_fmt(CLI::App& app, Context& context);
+void add_lsp(CLI::App& app, Context& context);
 void add_run(CLI::App& app, Context& context);
 void add_get(CLI::App& app, Context& context);
 void add_set(CLI::App& app, Context& context);

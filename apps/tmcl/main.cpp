@@ -50,6 +50,7 @@ int run(int argument_count, char** arguments) {
   add_asm(app, context);
   add_dis(app, context);
   add_fmt(app, context);
+  add_lsp(app, context);
   add_run(app, context);
   add_get(app, context);
   add_set(app, context);
