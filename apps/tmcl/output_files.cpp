@@ -57,9 +57,20 @@ class Replacements {
     // Where a link leads is replaced, not the link.
     std::filesystem::path target = std::filesystem::weakly_canonical(path, error);
     if (error) target = path;
+    const bool replaces = std::filesystem::exists(target, error);
+    // Renaming would replace a file nobody may write, too.
+    if (replaces && ::access(target.c_str(), W_OK) != 0) {
+      return cannot_write(path, std::generic_category().message(errno));
+    }
     std::string temporary = fmt::format("{}.{}.{}", target.string(), ::getpid(), files_.size());
     files_.push_back({std::move(temporary), std::move(target), path});
-    return write_to(files_.back().temporary, content, path);
+    if (Result<void> written = write_to(files_.back().temporary, content, path); !written) return written;
+    if (replaces) {
+      std::filesystem::permissions(files_.back().temporary, std::filesystem::status(files_.back().target).permissions(),
+                                   error);
+      if (error) return cannot_write(path, error.message());
+    }
+    return {};
   }
 
   Result<void> move_all() {
