@@ -30,8 +30,8 @@ void check_routines(const CheckedProgram& program, const FlowFacts& facts, Diagn
     const Span routine = program.source_map[entry.routine];
     if (facts.main[entry.routine]) {
       diagnostics.add(DiagnosticKind::interrupt_entered_directly, routine,
-                      "the program gets into this interrupt routine without an interrupt", "made one here",
-                      program.source_map[entry.vect]);
+                      "the program gets into this interrupt routine without an interrupt",
+                      "made an interrupt routine here", program.source_map[entry.vect]);
     } else if (!ending[entry.routine]) {
       diagnostics.add(DiagnosticKind::interrupt_without_return, routine,
                       "this interrupt routine has no RETI: no further interrupt is taken once it has run",

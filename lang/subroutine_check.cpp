@@ -103,7 +103,7 @@ void check_returns(const CheckedProgram& program, const FlowFacts& facts, Diagno
     diagnostics.add(DiagnosticKind::return_without_call, program.source_map[address],
                     is_subroutine ? "the program gets to this RSUB without a call, and it is ignored then"
                                   : "the program gets to this RETI without an interrupt",
-                    "does a STOP or JA before the routine miss?");
+                    "is a STOP or JA missing before the routine?");
   }
 }
 
