@@ -49,22 +49,35 @@ CursorPlace place_in_directive(std::string_view text, const Token& directive) {
   return place;
 }
 
-class CompletionList {
- public:
-  explicit CompletionList(const ModuleDescription& module) : module_(&module) {}
+/// Whether the letters of `written` come in `label` in this order: more than any editor shows.
+bool may_match(std::string_view written, std::string_view label) {
+  auto at = label.begin();
+  for (const char c : written) {
+    at = std::find_if(at, label.end(), [&](char other) { return to_upper(other) == to_upper(c); });
+    if (at == label.end()) return false;
+    ++at;
+  }
+  return true;
+}
 
-  std::vector<Completion> take() { return std::move(list_); }
+class Collection {
+ public:
+  Collection(std::string_view written, const ModuleDescription& module) : written_(written), module_(&module) {}
+
+  CompletionList take() { return std::move(list_); }
 
   void add_statements() {
     for (const InstructionSpec& row : instructions) {
       if (row.mnemonic == nullptr || !contains(row.modules, module_->id)) continue;
-      add(CompletionKind::mnemonic, row.mnemonic, row.mnemonic, explain(row, *module_));
+      add(CompletionKind::mnemonic, row.mnemonic, row.mnemonic, [&] { return explain(row, *module_); });
     }
     add_directive();
   }
 
   void add_directive() {
-    add(CompletionKind::directive, "#include ", "#include", {"#include FILE", {"Reads another file here."}});
+    add(CompletionKind::directive, "#include ", "#include", [] {
+      return Explanation{"#include FILE", {"Reads another file here."}};
+    });
   }
 
   /// What chooses something of the module by a word or a number.
@@ -72,11 +85,13 @@ class CompletionList {
     const KeywordSet set = keywords_of(kind);
     for (std::size_t i = 0; i < set.count; ++i) {
       const Keyword& word = set.words[i];
-      if (word.value != set.excluded) add(CompletionKind::word, word.word, word.word, explain(word, kind));
+      if (word.value == set.excluded) continue;
+      add(CompletionKind::word, word.word, word.word, [&] { return explain(word, kind); });
     }
     switch (kind) {
       case OperandKind::motor:
-        for (int motor = 0; motor < module_->axis_count; ++motor) add_number(motor, "motor", {});
+        for (int motor = 0; motor < module_->axis_count; ++motor)
+          add_number(motor, "motor", [] { return Explanation(); });
         break;
       case OperandKind::axis_parameter:
         add_parameters(axis_parameters, axis_parameter_count);
@@ -86,7 +101,8 @@ class CompletionList {
         break;
       case OperandKind::interrupt:
         for (const InterruptSpec& row : interrupts) {
-          if (contains(row.modules, module_->id)) add_number(static_cast<int>(row.number), row.name, explain(row));
+          if (!contains(row.modules, module_->id)) continue;
+          add_number(static_cast<int>(row.number), row.name, [&] { return explain(row); });
         }
         break;
       case OperandKind::port:
@@ -99,7 +115,8 @@ class CompletionList {
 
   void add_functions() {
     for (std::size_t i = 0; i < function_count; ++i) {
-      add(CompletionKind::function, std::string(functions[i].name) + "(", functions[i].name, explain(functions[i]));
+      add(CompletionKind::function, std::string(functions[i].name) + "(", functions[i].name,
+          [&] { return explain(functions[i]); });
     }
   }
 
@@ -108,26 +125,34 @@ class CompletionList {
       const bool is_label = symbol.kind == SymbolKind::label;
       const bool is_behind = symbol.span.file == file && symbol.span.offset >= offset;
       if (is_label ? !with_labels : is_behind) continue;
-      add(is_label ? CompletionKind::label : CompletionKind::constant, std::string(symbol.name),
-          std::string(symbol.name), explain(symbol));
+      add(is_label ? CompletionKind::label : CompletionKind::constant, symbol.name, symbol.name,
+          [&] { return explain(symbol); });
     }
   }
 
  private:
-  void add(CompletionKind kind, std::string text, std::string label, Explanation explanation) {
-    list_.push_back({kind, std::move(text), std::move(label), std::move(explanation)});
+  /// Explained only if it is wanted: a program can have very many names.
+  template <class Explain>
+  void add(CompletionKind kind, std::string_view text, std::string_view label, const Explain& explain_it) {
+    if (!may_match(written_, label)) return;
+    if (list_.items.size() == most_completions) {
+      list_.is_complete = false;
+      return;
+    }
+    list_.items.push_back({kind, std::string(text), std::string(label), explain_it()});
   }
 
-  void add_number(int number, const std::string& name, Explanation explanation) {
+  template <class Explain>
+  void add_number(int number, const std::string& name, const Explain& explain_it) {
     const std::string text = std::to_string(number);
-    add(CompletionKind::number, text, text + " " + name, std::move(explanation));
+    add(CompletionKind::number, text, text + " " + name, explain_it);
   }
 
   template <class Row>
   void add_parameters(const Row* rows, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
       if (rows[i].in(module_->id).access == Access::none) continue;
-      add_number(static_cast<int>(rows[i].number), rows[i].name, explain(rows[i], *module_));
+      add_number(static_cast<int>(rows[i].number), rows[i].name, [&] { return explain(rows[i], *module_); });
     }
   }
 
@@ -137,12 +162,13 @@ class CompletionList {
       // The bank has an operand of its own.
       const std::string text = std::to_string(row.port);
       const std::string bank = std::to_string(static_cast<int>(row.bank));
-      add(CompletionKind::number, text, text + " bank " + bank + ": " + row.description, explain(row));
+      add(CompletionKind::number, text, text + " bank " + bank + ": " + row.description, [&] { return explain(row); });
     }
   }
 
+  std::string_view written_;
   const ModuleDescription* module_;
-  std::vector<Completion> list_;
+  CompletionList list_;
 };
 
 }  // namespace
@@ -191,9 +217,9 @@ CursorPlace place_of_cursor(std::string_view text, std::size_t offset) {
   return place;
 }
 
-std::vector<Completion> completions(const CursorPlace& place, FileId file, std::size_t offset,
-                                    const SymbolTable& symbols, const ModuleDescription& module) {
-  CompletionList list(module);
+CompletionList completions(const CursorPlace& place, std::string_view written, FileId file, std::size_t offset,
+                           const SymbolTable& symbols, const ModuleDescription& module) {
+  Collection list(written, module);
   switch (place.kind) {
     case Kind::nothing:
     case Kind::file_name:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -45,10 +46,19 @@ struct Completion {
   Explanation explanation;  ///< empty title for none
 };
 
-/// All that can be written at a place, whatever has been written of it so far; nothing for file names.
+/// A list with more items helps nobody.
+inline constexpr std::size_t most_completions = 1000;
+
+struct CompletionList {
+  std::vector<Completion> items;
+  bool is_complete = true;  ///< false where there are more than were wanted
+};
+
+/// What can be written at a place and has the letters of `written` in this order, as far as that says what is wanted;
+/// nothing for file names.
 /// @param file,offset where the cursor is: constants that are defined behind it are left out
 /// @param symbols what the program defines
-std::vector<Completion> completions(const CursorPlace& place, FileId file, std::size_t offset,
-                                    const SymbolTable& symbols, const ModuleDescription& module);
+CompletionList completions(const CursorPlace& place, std::string_view written, FileId file, std::size_t offset,
+                           const SymbolTable& symbols, const ModuleDescription& module);
 
 }  // namespace opentmcl::lang

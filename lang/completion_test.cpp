@@ -44,8 +44,9 @@ std::vector<std::string> labels_in(const std::string& with_cursor, const ModuleD
   const Typed typed(with_cursor);
   const AssemblyResult result = assemble_text(typed.text, module);
   std::vector<std::string> labels;
-  for (const Completion& completion :
-       completions(place_of_cursor(typed.text, typed.offset), 0, typed.offset, result.symbols, module)) {
+  const CursorPlace place = place_of_cursor(typed.text, typed.offset);
+  const std::string_view written = std::string_view(typed.text).substr(place.start, typed.offset - place.start);
+  for (const Completion& completion : completions(place, written, 0, typed.offset, result.symbols, module).items) {
     labels.push_back(completion.label);
   }
   return labels;
@@ -118,6 +119,27 @@ TEST(Completion, OffersLabelsWhereAnAddressIsExpectedAndConstantsThatAreDefinedA
   EXPECT_THAT(labels_in(source + "SAP 4, 0, |"), Contains("SIN"));
   EXPECT_THAT(labels_in(source + "SAP 4, 0, |"), Not(Contains("Start")));
   EXPECT_THAT(labels_in("// |"), IsEmpty());
+}
+
+TEST(Completion, LeavesOutWhatHasOtherLetters) {
+  EXPECT_THAT(labels_in("WAIT r|"), ElementsAre("REFSW", "RFS"));
+  EXPECT_THAT(labels_in("SAP 17|"), Contains("174 stallGuard2 threshold"));
+  EXPECT_THAT(labels_in("SAP speed|"), Contains("4 maximum positioning speed"));
+  EXPECT_THAT(labels_in("SAP speed|"), Not(Contains("174 stallGuard2 threshold")));
+}
+
+TEST(Completion, OffersNoMoreThanHelps) {
+  std::string source;
+  for (int i = 0; i < 2000; ++i) source += "Name" + std::to_string(i) + " = 1\n";
+  const AssemblyResult result = assemble_text(source + "ROR 0, ");
+  const CursorPlace place = place_of_cursor(result.sources[0].text, result.sources[0].text.size());
+  const auto offered = [&](std::string_view written) {
+    return completions(place, written, 0, result.sources[0].text.size(), result.symbols, pd1161);
+  };
+  EXPECT_EQ(offered("").items.size(), most_completions);
+  EXPECT_FALSE(offered("").is_complete);
+  EXPECT_EQ(offered("name1999").items.size(), 1U);
+  EXPECT_TRUE(offered("name1999").is_complete);
 }
 
 RC_GTEST_PROP(Completion, WorksAnywhereInAnyText, ()) {

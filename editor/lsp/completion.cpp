@@ -14,8 +14,6 @@
 namespace opentmcl::editor::lsp {
 namespace {
 
-/// A list with more items helps nobody; the client asks again when more has been typed.
-constexpr std::size_t most_items = 1000;
 /// So many entries of a folder are looked at for files that can be included.
 constexpr std::size_t most_files = 10000;
 
@@ -36,21 +34,6 @@ CompletionItemKindCode code_of(lang::CompletionKind kind) {
       return CompletionItemKindCode::function;
   }
   return CompletionItemKindCode::keyword;
-}
-
-char to_lower(char c) {
-  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-
-/// Whether the letters of `typed` come in `label` in this order: all that clients may show.
-bool may_match(std::string_view typed, std::string_view label) {
-  auto at = label.begin();
-  for (const char c : typed) {
-    at = std::find_if(at, label.end(), [&](char other) { return to_lower(other) == to_lower(c); });
-    if (at == label.end()) return false;
-    ++at;
-  }
-  return true;
 }
 
 /// Files beside the document, and the built-in ones.
@@ -90,16 +73,11 @@ json completion(const View& view, std::size_t offset, const ClientAbilities& cli
   if (place.kind == lang::CursorPlace::Kind::file_name) {
     return {{"isIncomplete", false}, {"items", file_items(view, range)}};
   }
-  const std::string_view typed = view.text().substr(start, offset - start);
+  const std::string_view written = view.text().substr(start, offset - start);
+  const lang::CompletionList candidates =
+      lang::completions(place, written, view.file, offset, view.program.symbols(), view.program.module());
   json items = json::array();
-  bool is_complete = true;
-  for (lang::Completion& candidate :
-       lang::completions(place, view.file, offset, view.program.symbols(), view.program.module())) {
-    if (!may_match(typed, candidate.label)) continue;
-    if (items.size() == most_items) {
-      is_complete = false;
-      break;
-    }
+  for (const lang::Completion& candidate : candidates.items) {
     const lang::Explanation& explanation = candidate.explanation;
     json item = {{"label", candidate.label},
                  {"kind", number_of(code_of(candidate.kind))},
@@ -111,7 +89,7 @@ json completion(const View& view, std::size_t offset, const ClientAbilities& cli
     }
     items.push_back(std::move(item));
   }
-  return {{"isIncomplete", !is_complete}, {"items", std::move(items)}};
+  return {{"isIncomplete", !candidates.is_complete}, {"items", std::move(items)}};
 }
 
 }  // namespace opentmcl::editor::lsp
