@@ -65,8 +65,9 @@ class Conversation {
   bool cancels(const json& message) {
     if (text_of(member(message, "method")) != cancel_method) return false;
     const json& id = member(message, "params", "id");
+    const bool is_id = id.is_string() || id.is_number_integer();
     const auto cancelled = std::find_if(waiting_.begin(), waiting_.end(), [&](const ReadOutcome& request) {
-      return !id.is_null() && member(request.message, "id") == id && member(request.message, "method").is_string();
+      return is_id && member(request.message, "id") == id && member(request.message, "method").is_string();
     });
     if (cancelled != waiting_.end()) {
       server_.refuse_cancelled(cancelled->message);

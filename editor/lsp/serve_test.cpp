@@ -2,10 +2,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
-#include <chrono>
+#include <cstdio>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,40 +16,31 @@ using nlohmann::json;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// All that a client sends before the server reads anything, and what it has sent back until it ended.
+/// All that a client sends before the server reads anything, and what it has sent back until it ended. Both are files,
+/// which take any amount and end where they end.
 class Conversation {
  public:
-  Conversation() { EXPECT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, ends_), 0); }
-  Conversation(const Conversation&) = delete;
-  Conversation& operator=(const Conversation&) = delete;
-  ~Conversation() {
-    ::close(ends_[0]);
-    ::close(ends_[1]);
-  }
-
   void send(json message) {
     message["jsonrpc"] = "2.0";
-    DescriptorStream client(ends_[0], ends_[0]);
-    EXPECT_TRUE(client.write(message));
+    EXPECT_TRUE(DescriptorStream(-1, sent_.descriptor()).write(message));
   }
   void send_bytes(const std::string& bytes) {
-    EXPECT_EQ(::write(ends_[0], bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
+    EXPECT_EQ(::write(sent_.descriptor(), bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
   }
 
   ServeResult serve_to_the_end() {
-    ::shutdown(ends_[0], SHUT_WR);
-    DescriptorStream server(ends_[1], ends_[1]);
+    sent_.rewind();
+    DescriptorStream server(sent_.descriptor(), answered_.descriptor());
     lang::MemoryFiles files;
-    ServeResult result = serve(server, files);
-    ::shutdown(ends_[1], SHUT_WR);
-    return result;
+    return serve(server, files);
   }
 
   std::vector<json> answers() {
-    DescriptorStream client(ends_[0], ends_[0]);
+    answered_.rewind();
+    DescriptorStream client(answered_.descriptor(), -1);
     std::vector<json> messages;
     while (true) {
-      const ReadOutcome outcome = client.read(std::chrono::milliseconds(60'000));
+      const ReadOutcome outcome = client.read({});
       if (outcome.state != ReadOutcome::State::message) return messages;
       messages.push_back(outcome.message);
     }
@@ -74,7 +65,19 @@ class Conversation {
   static constexpr const char* uri = "file:///lab/main.tmc";
 
  private:
-  int ends_[2] = {-1, -1};
+  /// A file without a name, gone at the end.
+  class TemporaryFile {
+   public:
+    TemporaryFile() : file_(std::tmpfile(), &std::fclose) { EXPECT_NE(file_, nullptr); }
+    int descriptor() const { return ::fileno(file_.get()); }
+    void rewind() const { EXPECT_EQ(::lseek(descriptor(), 0, SEEK_SET), 0); }
+
+   private:
+    std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+  };
+
+  TemporaryFile sent_;
+  TemporaryFile answered_;
 };
 
 std::vector<json> codes_and_ids(const std::vector<json>& messages) {
@@ -112,11 +115,11 @@ TEST(Serve, DoesNotDoWhatHasBeenCancelled) {
 TEST(Serve, PublishesOnceForManyChanges) {
   Conversation conversation;
   conversation.open_with("STOP\n");
-  for (int version = 2; version < 20; ++version) conversation.change(version, "NOSUCH " + std::to_string(version));
+  for (int version = 2; version < 100; ++version) conversation.change(version, "NOSUCH " + std::to_string(version));
   EXPECT_EQ(conversation.serve_to_the_end().exit_code, 1) << "the client has gone without a word";
   const std::vector<json> answers = conversation.answers();
   ASSERT_EQ(answers.size(), 2U);
-  EXPECT_EQ(answers[1]["params"]["version"], 19);
+  EXPECT_EQ(answers[1]["params"]["version"], 99);
 }
 
 TEST(Serve, RefusesABodyThatIsNoJsonAndGoesOn) {
@@ -127,6 +130,25 @@ TEST(Serve, RefusesABodyThatIsNoJsonAndGoesOn) {
   EXPECT_EQ(conversation.serve_to_the_end().exit_code, 0);
   EXPECT_THAT(codes_and_ids(conversation.answers()),
               ElementsAre(json({nullptr, -32700}), json({0, nullptr}), json({"end", nullptr})));
+}
+
+TEST(Serve, SurvivesMessagesThatAreNestedDeeply) {
+  const auto framed = [](const std::string& body) {
+    return "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
+  };
+  constexpr std::size_t depth = 10'000;
+  const std::string nested = std::string(depth, '[') + std::string(depth, ']');
+  Conversation conversation;
+  conversation.send_bytes(framed(nested));
+  conversation.send_bytes(framed(R"({"method":"$/cancelRequest","params":{"id":)" + nested + "}}"));
+  conversation.send_bytes(framed(R"({"method":"initialize","id":)" + nested + "}"));
+  conversation.send_bytes(framed(std::string(depth, '[')));
+  conversation.open_with("STOP\n");
+  conversation.end();
+  EXPECT_EQ(conversation.serve_to_the_end().exit_code, 0);
+  EXPECT_THAT(codes_and_ids(conversation.answers()),
+              ElementsAre(json({nullptr, -32600}), json({nullptr, -32600}), json({nullptr, -32700}), json({0, nullptr}),
+                          json({"end", nullptr})));
 }
 
 TEST(Serve, EndsWhereNoMessageCanBeFoundAnyMore) {
