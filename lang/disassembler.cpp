@@ -118,7 +118,8 @@ Disassembly disassemble(const std::vector<Command>& commands, const ModuleDescri
     return address >= 0 && static_cast<std::size_t>(address) < targets.size();
   };
   Disassembly disassembly;
-  disassembly.text = "// " + std::to_string(commands.size()) + " instructions for the " + describe(module) + "\n";
+  disassembly.text = "// " + std::to_string(commands.size()) + " instructions for the " + describe(module) +
+                     "\n// module: " + module.argument + "\n";
   const auto add_label = [&](std::size_t address) {
     if (targets[address]) disassembly.text += label_name(address) + ":\n";
   };

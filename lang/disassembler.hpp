@@ -34,7 +34,8 @@ struct Inexpressible {
 };
 
 struct Disassembly {
-  /// Source that assembles, without appending STOP, to the same program; a comment where an instruction has no text.
+  /// Source that assembles, without appending STOP, to the same program; a comment where an instruction has no text. It
+  /// says which module it is for (lang/module_comment.hpp).
   std::string text;
   std::vector<Inexpressible> problems;  ///< if any, the text is for reading only
 };

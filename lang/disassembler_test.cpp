@@ -12,6 +12,7 @@
 #include "lang/assembling_test.hpp"
 #include "lang/formatter.hpp"
 #include "lang/generated_program_test.hpp"
+#include "lang/module_comment.hpp"
 
 namespace opentmcl::lang {
 namespace {
@@ -46,6 +47,7 @@ RC_GTEST_PROP(Disassembler, IsTheInverseOfTheAssemblerForWholeProgramsWithLabels
     RC_ASSERT(disassembly.problems.empty());
     RC_ASSERT(format_source(disassembly.text) == disassembly.text);
     RC_ASSERT(reassembled(disassembly.text, module) == commands);
+    RC_ASSERT(module_named_in(disassembly.text)->module == &module);
   }
 }
 
@@ -65,6 +67,7 @@ TEST(Disassembler, WritesLabelsAndWords) {
                                               pd1161);
   EXPECT_EQ(disassembly.text,
             "// 4 instructions for the PD-1161 (firmware V1.47)\n"
+            "// module: pd1161\n"
             "L_0:\n"
             "    MVP COORD, 0, 8\n"
             "    JC GE, L_0\n"
@@ -79,6 +82,7 @@ TEST(Disassembler, SaysWhatInstructionsAreAbout) {
                         pd1161)
                 .text,
             "// 11 instructions for the PD-1161 (firmware V1.47)\n"
+            "// module: pd1161\n"
             "    SAP 4, 0, 1000          // maximum positioning speed = 35.8 rpm\n"
             "    SAP 154, 0, 4           // pulse divisor = 16\n"
             "    SAP 4, 0, 1000          // maximum positioning speed = 17.9 rpm\n"
@@ -95,6 +99,7 @@ TEST(Disassembler, SaysWhatInstructionsAreAbout) {
 TEST(Disassembler, LeavesCommentsOutOnDemand) {
   EXPECT_EQ(disassemble(commands_of("SAP 4, 0, 1000\n"), tmcm1110, Comments::none).text,
             "// 1 instructions for the TMCM-1110 (firmware V1.08)\n"
+            "// module: tmcm1110\n"
             "    SAP 4, 0, 1000\n");
 }
 

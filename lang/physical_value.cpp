@@ -153,8 +153,8 @@ std::string short_physical_value(Unit unit, std::int32_t value, const PhysicalSc
 }
 
 std::string number_with_physical_value(Unit unit, std::int32_t value, const PhysicalScale& scale) {
-  const std::string number = std::to_string(value);
-  const std::string physical = physical_value(unit, value, scale);
+  std::string number = std::to_string(value);
+  std::string physical = physical_value(unit, value, scale);
   if (physical.empty()) return number;
   // "51200 microsteps = 1 turn" begins with the number already.
   return physical.compare(0, number.size() + 1, number + " ") == 0 ? physical : number + " = " + physical;
