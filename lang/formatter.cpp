@@ -18,6 +18,9 @@ constexpr std::size_t indentation = 4;
 constexpr std::size_t comment_column = 28;
 /// Blanks between code and comment, at least.
 constexpr std::size_t comment_distance = 2;
+/// Columns of code and names of constants that others are aligned to. A line of a megabyte must not widen a thousand
+/// more.
+constexpr std::size_t longest_aligned_code = 80;
 constexpr std::size_t tab_width = 8;
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
@@ -37,6 +40,9 @@ struct FormattedLine {
   std::string code;             ///< with its indentation; of a constant its value
   std::string name;             ///< of a constant
   std::string comment;
+  bool is_long = false;  ///< not aligned, nor are others to it
+
+  bool is_constant() const { return kind == LineKind::constant; }
 };
 
 bool continues_character(char c) {
@@ -98,9 +104,13 @@ class LineFormatter {
       add_comment_or_blank(written, code_end, comment);
     } else {
       add_code(*std::move(code));
-      lines_.back().comment = comment;
+      FormattedLine& line = lines_.back();
+      line.comment = comment;
+      line.is_long = line.name.size() + width_of(line.code) > longest_aligned_code;
       end_of_commented_code_.reset();
-      if (!comment.empty()) end_of_commented_code_ = column_of(written, statement_.tokens.rbegin()[1].end() - start);
+      if (!comment.empty() && !line.is_long) {
+        end_of_commented_code_ = column_of(written, statement_.tokens.rbegin()[1].end() - start);
+      }
     }
   }
 
@@ -185,15 +195,16 @@ bool is_comment_line(const FormattedLine& line) {
 
 /// Writes the names of constants before their values, all `=` of a block below each other.
 void align_constants(Lines& lines) {
-  const auto belongs = [](const FormattedLine& line) {
-    return line.kind == LineKind::constant || is_comment_line(line);
-  };
+  const auto belongs = [](const FormattedLine& line) { return line.is_constant() || is_comment_line(line); };
   for_each_block(lines, belongs, [](Lines::iterator first, Lines::iterator last) {
     std::size_t width = 0;
-    for (auto line = first; line != last; ++line) width = std::max(width, line->name.size());
     for (auto line = first; line != last; ++line) {
-      if (line->kind != LineKind::constant) continue;
-      line->code = line->name + std::string(width - line->name.size(), ' ') + " = " + line->code;
+      if (!line->is_long) width = std::max(width, line->name.size());
+    }
+    for (auto line = first; line != last; ++line) {
+      if (!line->is_constant()) continue;
+      const std::size_t blanks = line->is_long ? 0 : width - line->name.size();
+      line->code = line->name + std::string(blanks, ' ') + " = " + line->code;
     }
   });
 }
@@ -209,10 +220,10 @@ void align_comments(Lines& lines) {
   for_each_block(lines, belongs, [&](Lines::iterator first, Lines::iterator last) {
     std::size_t column = comment_column;
     for (auto line = first; line != last; ++line) {
-      if (takes_part(*line)) column = std::max(column, width_of(line->code) + comment_distance);
+      if (takes_part(*line) && !line->is_long) column = std::max(column, width_of(line->code) + comment_distance);
     }
     for (auto line = first; line != last; ++line) {
-      if (takes_part(*line)) line->code.append(column - width_of(line->code), ' ');
+      if (takes_part(*line)) line->code.append(line->is_long ? comment_distance : column - width_of(line->code), ' ');
     }
   });
 }

@@ -86,6 +86,17 @@ TEST(Formatter, LeavesCommentsAtTheMarginThereAndPutsOthersBelowCode) {
             "    // no more\n");
 }
 
+TEST(Formatter, AlignsNothingToLongLines) {
+  const std::string number(100, '1');
+  EXPECT_EQ(
+      format_source("A=1// a\nB=" + number + " // b\n             // c\n" + number + "=2\nL" + number + "=3\n"),
+      "A = 1                       // a\nB = " + number + "  // b\n    // c\n" + number + "=2\nL" + number + " = 3\n");
+  // A block of a megabyte is not made one of a terabyte.
+  std::string source = "L" + std::string(1000000, '1') + " = 1 // a\n";
+  for (int i = 0; i < 1000; ++i) source += "A" + std::to_string(i) + " = 1 // a\n";
+  EXPECT_LT(format_source(source).size(), 2000000U);
+}
+
 TEST(Formatter, KeepsOneBlankLineOfSeveralAndNoneAtTheEnds) {
   EXPECT_EQ(format_source("\n\n STOP\n\t\n\n \nSTOP\n\n"), "    STOP\n\n    STOP\n");
   EXPECT_EQ(format_source("\n \n"), "");
