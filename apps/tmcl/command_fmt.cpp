@@ -37,7 +37,7 @@ struct FmtOptions {
 };
 
 Result<std::string> read_source(const std::string& path) {
-  const Result<std::string> text =
+  Result<std::string> text =
       path == standard_input ? std::string{std::istreambuf_iterator<char>(std::cin), std::istreambuf_iterator<char>()}
                              : read_file(path);
   if (!text || text->size() <= lang::maximum_text_size) return text;
