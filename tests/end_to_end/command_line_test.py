@@ -57,7 +57,7 @@ class WithNothingPluggedIn(CommandLineTest):
     def test_prints_all_tables(self):
         spec = self.json("spec")
         self.assertEqual({"modules", "instructions", "axis_parameters", "global_parameters", "user_variables", "coordinates",
-                          "interrupts", "status_codes", "io_ports"}, set(spec))
+                          "interrupts", "status_codes", "io_ports", "functions"}, set(spec))
         self.assertIn("MVP", self.expect(0, "spec").stdout)
 
     def test_tells_versions(self):
