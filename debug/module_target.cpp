@@ -58,17 +58,19 @@ Result<ProgramStatus> ModuleTarget::step(std::uint16_t address, const Command& i
   for (int look = 0; look < most_looks_at_a_step; ++look) {
     const Result<std::uint16_t> reached = program_counter();
     if (!reached) return reached.error();
-    const auto opcode = static_cast<Opcode>(instruction.opcode);
-    if (*reached != address || can_jump(opcode)) return ProgramStatus{State::running, false, *reached};
-    if (opcode == Opcode::wait) return ProgramStatus{State::running, true, *reached};
-    // It ends here, or the EEPROM is busy and the step still under way.
+    if (*reached != address) return ProgramStatus{State::running, false, *reached};
+    // The step is still under way, as while the EEPROM is busy, or the program waits, ends or jumps here.
     const Result<State> now = state();
     if (!now) return now.error();
-    if (*now == State::stopped) {
+    if (*now != State::stepping) {
       // Perhaps it was executed between the two looks.
       const Result<std::uint16_t> end = program_counter();
       if (!end) return end.error();
-      return ProgramStatus{*end == address ? State::stopped : State::running, false, *end};
+      const auto opcode = static_cast<Opcode>(instruction.opcode);
+      const bool stays = *end == address;
+      const bool waits = stays && opcode == Opcode::wait;
+      const bool has_ended = stays && !waits && !can_jump(opcode);
+      return ProgramStatus{has_ended ? State::stopped : State::running, waits, *end};
     }
     rest();
   }

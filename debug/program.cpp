@@ -10,7 +10,10 @@
 namespace opentmcl::debug {
 
 Program::Program(lang::AssemblyResult assembled, const ModuleDescription& module)
-    : program_(*std::move(assembled.program)), sources_(std::move(assembled.sources)), module_(&module) {
+    : program_(*std::move(assembled.program)),
+      sources_(std::move(assembled.sources)),
+      symbols_(std::move(assembled.symbols)),
+      module_(&module) {
   for (lang::FileId file = 0; file < sources_.size(); ++file) indices_.emplace_back(sources_[file].text);
   for (std::size_t address = 0; address < size(); ++address) {
     if (program_.source_map[address].length > 0) by_place_.push_back(static_cast<std::uint16_t>(address));
@@ -77,6 +80,12 @@ std::optional<std::uint16_t> Program::address_of_label(std::string_view name) co
     if (lang::equal_ignoring_case(label.name, name)) return static_cast<std::uint16_t>(label.address);
   }
   return std::nullopt;
+}
+
+std::optional<double> Program::value_of_name(std::string_view name) const {
+  const lang::Symbol* const symbol = symbols_.find(name);
+  if (symbol == nullptr) return std::nullopt;
+  return symbol->value;
 }
 
 Program::Place Program::place_of(std::uint16_t address) const {

@@ -50,6 +50,8 @@ class Program {
 
   const std::vector<lang::Label>& labels() const { return program_.labels; }
   std::optional<std::uint16_t> address_of_label(std::string_view name) const;
+  /// A label's address or a constant of the source.
+  std::optional<double> value_of_name(std::string_view name) const;
   /// The last label at or before the address: "Loop", and how many instructions after it.
   struct Place {
     std::string_view label;  ///< empty: there is none
@@ -65,6 +67,7 @@ class Program {
  private:
   lang::Program program_;
   lang::Sources sources_;
+  lang::SymbolTable symbols_;             // names are texts of the sources
   std::vector<lang::LineIndex> indices_;  // by file
   std::vector<std::uint16_t> by_place_;   // addresses with a line, by file and offset
   const ModuleDescription* module_;

@@ -247,13 +247,13 @@ class Parser {
     if (lang::is_same_name(name, "A")) return leaf(Operation::accumulator);
     if (lang::is_same_name(name, "X")) return leaf(Operation::x_register);
     if (lang::is_same_name(name, "PC")) return leaf(Operation::program_counter);
-    if (const auto label = program_.address_of_label(name)) return leaf(Operation::number, *label);
+    if (const auto value = program_.value_of_name(name)) return leaf(Operation::number, *value);
     if (const auto constant = built_in_constant(name)) return leaf(Operation::number, *constant);
     --token_;
     if (lang::find_mnemonic(name) != nullptr) {
       return fail("expected '(' behind " + std::string(name) + ", as in GAP(1, 0)");
     }
-    return fail("neither a register (A, X, PC) nor a label nor a constant of the built-in include files");
+    return fail("neither a register (A, X, PC) nor a label or constant of the program or the built-in include files");
   }
 
   /// Of the include files that every assembler has, such as APActualPosition.

@@ -39,7 +39,7 @@ class ValueSource {
 class ValueExpression {
  public:
   /// Error: usage, one line that shows the place in the text.
-  /// @param program whose labels the text may name; its numbers are put in here, so it need not live on
+  /// @param program whose labels and constants the text may name; its numbers are put in here, so it need not live on
   static client::Result<ValueExpression> parse(std::string_view text, const Program& program);
 
   ValueExpression(ValueExpression&&) noexcept;

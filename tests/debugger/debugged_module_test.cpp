@@ -1,0 +1,276 @@
+// An engine with a module that is known by its commands alone: a virtual one at the other end of a connection.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "debug/debugging_test.hpp"
+#include "debug/module_target.hpp"
+#include "debug/twin/twin_target.hpp"
+#include "server/simulated_transport.hpp"
+
+namespace opentmcl::debug {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr std::string_view counting = R"(
+        SGP 1, 2, 3        // 0
+Loop:   CSUB Work          // 1
+        DJNZ 1, Loop       // 2
+        STOP               // 3
+Work:   GGP 2, 2           // 4
+        CALC ADD, 5        // 5
+        AGP 2, 2           // 6
+        RSUB               // 7
+)";
+
+struct Bench {
+  explicit Bench(std::string_view source) : engine(target, program_of(source)) {}
+
+  server::SimulatedTransport transport{pd1161};
+  client::Client client{transport};
+  ModuleTarget target{client, pd1161};
+  Engine engine;
+};
+
+struct LoadedBench : Bench {
+  explicit LoadedBench(std::string_view source) : Bench(source) { launch(engine); }
+};
+
+// ---- Loading
+
+TEST(Loading, SendsOnlyWhatDiffers) {
+  LoadedBench bench(counting);
+  EXPECT_TRUE(value_of(bench.engine.compare(every_progress)).is_same());
+  std::string changed(counting);
+  changed.replace(changed.find("ADD, 5"), 6, "ADD, 7");
+  Engine again(bench.target, program_of(changed));
+  const MemoryComparison comparison = value_of(again.compare(every_progress));
+  EXPECT_THAT(comparison.differing, ElementsAre(5));
+  EXPECT_EQ(1U, value_of(again.download(comparison, every_progress)));
+  EXPECT_TRUE(value_of(again.compare(every_progress)).is_same());
+  value_of(again.restart());
+  EXPECT_EQ(Stop::Reason::ended, go(again, Motion::Kind::run).reason);
+  EXPECT_EQ(21, value_of(again.variable(2)));
+}
+
+TEST(Loading, SeveralPiecesArriveWhole) {
+  std::string before;
+  std::string after;
+  for (int i = 0; i < 100; ++i) {
+    before += "CALC ADD, " + std::to_string(i) + "\n";
+    after += "CALC ADD, " + std::to_string(i % 17 == 3 ? -i : i) + "\n";
+  }
+  LoadedBench bench(before);
+  Engine engine(bench.target, program_of(after));
+  const MemoryComparison comparison = value_of(engine.compare(every_progress));
+  EXPECT_EQ(6U, comparison.differing.size());
+  EXPECT_EQ(6U, value_of(engine.download(comparison, every_progress)));
+  EXPECT_TRUE(value_of(engine.compare(every_progress)).is_same());
+}
+
+TEST(Loading, CodeProtectionIsNoticed) {
+  LoadedBench bench(counting);
+  constexpr auto code_protection = static_cast<std::uint8_t>(GlobalParameter::code_protection);
+  expect_done(bench.client.set_global_parameter(code_protection, Bank::module_settings, 3));
+  const MemoryComparison comparison = value_of(bench.engine.compare(every_progress));
+  EXPECT_FALSE(comparison.readable);
+  EXPECT_FALSE(comparison.writable);
+  EXPECT_FALSE(comparison.is_same());
+  const auto refused = bench.engine.download(comparison, every_progress);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(client::ErrorKind::refused, refused.error().kind);
+  EXPECT_THAT(refused.error().message, HasSubstr("global parameter 81"));
+  // Who trusts that it is the program can debug it all the same.
+  value_of(bench.engine.restart());
+  EXPECT_EQ(2, go(bench.engine, Motion::Kind::run_to, 2).address);
+}
+
+// ---- Motion
+
+TEST(DebuggedModule, StepsIntoOverAndOutOfSubroutines) {
+  LoadedBench bench(counting);
+  EXPECT_EQ(1, go(bench.engine, Motion::Kind::step).address);
+  EXPECT_EQ(4, go(bench.engine, Motion::Kind::step).address);
+  EXPECT_EQ(2U, bench.engine.frames().size());
+  EXPECT_TRUE(bench.engine.frames_are_whole());
+  EXPECT_EQ(2, go(bench.engine, Motion::Kind::step_out).address);
+  EXPECT_EQ(1, go(bench.engine, Motion::Kind::step).address);
+  EXPECT_EQ(2, go(bench.engine, Motion::Kind::step_over).address);
+  EXPECT_EQ(10, value_of(bench.engine.variable(2)));
+  EXPECT_FALSE(bench.engine.go({Motion::Kind::step_out, 0, {}}, always));
+}
+
+TEST(DebuggedModule, StopsAtABreakpointAndRunsByItselfWithoutOne) {
+  LoadedBench bench(counting);
+  BreakpointRequest request;
+  request.address = 6;
+  request.condition = "A > 5";
+  const int number = value_of(bench.engine.add(request));
+  EXPECT_EQ(6, go(bench.engine, Motion::Kind::run).address);
+  EXPECT_EQ(10, value_of(bench.engine.registers()).accumulator);
+  EXPECT_TRUE(bench.engine.remove(number));
+  const Stop end = go(bench.engine, Motion::Kind::run);
+  EXPECT_EQ(Stop::Reason::ended, end.reason);
+  EXPECT_EQ(3, end.address);
+  EXPECT_EQ(15, value_of(bench.engine.variable(2)));
+}
+
+TEST(DebuggedModule, AProgramThatRunsByItselfIsPaused) {
+  LoadedBench bench("Loop: CSUB Sub\nJA Loop\nSub: RSUB\n");
+  int asked = 0;
+  const Stop stop = value_of(bench.engine.go({Motion::Kind::run, 0, {}}, [&](const Underway&) { return ++asked < 3; }));
+  EXPECT_EQ(Stop::Reason::pause, stop.reason);
+  // Where it is nobody saw, so there may be more on the stack than is known.
+  EXPECT_FALSE(bench.engine.frames_are_whole());
+  EXPECT_EQ(client::ProgramStatus::State::stopped, value_of(bench.client.program_status()).state);
+  go(bench.engine, Motion::Kind::run_to, 2);
+  EXPECT_EQ(1, go(bench.engine, Motion::Kind::step_out).address);
+}
+
+TEST(DebuggedModule, ABreakpointThatIsAddedWhileItRunsStopsIt) {
+  LoadedBench bench("Loop: CALC ADD, 1\nJA Loop\n");
+  bool added = false;
+  const Stop stop = value_of(bench.engine.go({Motion::Kind::run, 0, {}}, [&](const Underway&) {
+    if (!added) break_at(bench.engine, 1);
+    added = true;
+    return true;
+  }));
+  EXPECT_EQ(Stop::Reason::breakpoint, stop.reason);
+  EXPECT_EQ(1, stop.address);
+}
+
+TEST(DebuggedModule, AStepOverAWaitTakesAsLongAsTheWait) {
+  LoadedBench bench("WAIT TICKS, 0, 50\nSTOP\n");
+  const client::Duration begin = bench.target.now();
+  EXPECT_EQ(1, go(bench.engine, Motion::Kind::step).address);
+  EXPECT_GE(bench.target.now() - begin, client::Duration(500'000));
+  EXPECT_LT(bench.target.now() - begin, client::Duration(600'000));
+}
+
+TEST(DebuggedModule, AWaitForNothingEndsAtTheLimit) {
+  LoadedBench bench("WAIT REFSW, 0, 0\nSTOP\n");
+  const Stop stop =
+      value_of(bench.engine.go({Motion::Kind::step, 0, client::Duration(std::chrono::seconds(1))}, always));
+  EXPECT_EQ(Stop::Reason::limit, stop.reason);
+  EXPECT_TRUE(stop.waiting);
+}
+
+TEST(DebuggedModule, EndsAtAnInstructionThatTheModuleDoesNotHave) {
+  LoadedBench bench("CALC ADD, 1\nSTOP\n");
+  expect_done(bench.client.stop_program());
+  // What stands behind the program was never written.
+  Engine engine(bench.target, Program::disassembled({{19, 0, 0, 1}, {28, 0, 0, 0}}, pd1161, "memory"));
+  value_of(engine.restart());
+  go(engine, Motion::Kind::step);
+  EXPECT_EQ(Stop::Reason::ended, go(engine, Motion::Kind::step).reason);
+}
+
+TEST(DebuggedModule, AnInterruptRoutineIsAFrame) {
+  LoadedBench bench(R"(
+        VECT 0, Tick
+        SGP 0, 3, 20
+        EI 0
+        EI 255
+Loop:   CALC ADD, 1       // 4
+        JA Loop           // 5
+Tick:   SGP 5, 2, 1       // 6
+        RETI              // 7
+)");
+  break_at(bench.engine, 7);
+  bench.transport.pause(std::chrono::milliseconds(1));
+  const Stop stop = value_of(bench.engine.go({Motion::Kind::run, 0, {}}, [&](const Underway&) {
+    bench.transport.pause(std::chrono::milliseconds(1));
+    return true;
+  }));
+  EXPECT_EQ(7, stop.address);
+  const std::vector<Frame> frames = bench.engine.frames();
+  ASSERT_EQ(2U, frames.size());
+  EXPECT_TRUE(frames[0].is_interrupt);
+  EXPECT_TRUE(frames[1].address == 4 || frames[1].address == 5);
+  const Stop outside = go(bench.engine, Motion::Kind::step_out);
+  EXPECT_EQ(frames[1].address, outside.address);
+}
+
+TEST(DebuggedModule, RegistersCanBeSetAndFlagsAreNotVisible) {
+  LoadedBench bench(counting);
+  expect_done(bench.engine.set_accumulator(-7));
+  expect_done(bench.engine.set_x(12));
+  const RegisterValues registers = value_of(bench.engine.registers());
+  EXPECT_EQ(-7, registers.accumulator);
+  EXPECT_EQ(12, registers.x);
+  EXPECT_FALSE(registers.inner);
+}
+
+TEST(DebuggedModule, HasNeitherAPastNorSignals) {
+  LoadedBench bench(counting);
+  const auto back = bench.engine.go({Motion::Kind::reverse_step, 0, {}}, always);
+  ASSERT_FALSE(back);
+  EXPECT_THAT(back.error().message, HasSubstr("sim:pd1161"));
+  BreakpointRequest request;
+  request.kind = BreakpointRequest::Kind::signal;
+  request.subject = "velocity > 1";
+  EXPECT_FALSE(bench.engine.add(request));
+  EXPECT_FALSE(bench.engine.jump(3));
+}
+
+TEST(DebuggedModule, ALostSupplyIsCaught) {
+  LoadedBench bench("Loop: JA Loop\n");
+  bench.engine.stop_at_troubles(static_cast<std::uint8_t>(Trouble::under_voltage));
+  // All is well: asking changes nothing.
+  int asked = 0;
+  const Stop stop = value_of(bench.engine.go({Motion::Kind::run, 0, {}}, [&](const Underway&) { return ++asked < 3; }));
+  EXPECT_EQ(Stop::Reason::pause, stop.reason);
+}
+
+TEST(DebuggedModule, AnUnansweredCommandIsAnErrorAndNoHang) {
+  LoadedBench bench(counting);
+  // Global parameter 255 keeps the module from answering anything but reads.
+  constexpr auto suppress_reply = static_cast<std::uint8_t>(GlobalParameter::suppress_reply);
+  static_cast<void>(bench.client.set_global_parameter(suppress_reply, Bank::module_settings, 1));
+  const auto step = bench.engine.go({Motion::Kind::step, 0, {}}, always);
+  ASSERT_FALSE(step);
+  EXPECT_EQ(client::ErrorKind::timeout, step.error().kind);
+}
+
+/// Instructions that calculate, call and jump: what they come to does not depend on the time.
+std::string random_program() {
+  std::string text = "Begin:\n";
+  const auto count = *rc::gen::inRange(1, 15);
+  for (int i = 0; i < count; ++i) {
+    const std::string number = std::to_string(*rc::gen::inRange(-50, 50));
+    const std::string variable = std::to_string(*rc::gen::inRange(0, 6));
+    const std::string label = "L" + std::to_string(i);
+    const std::string choices[] = {"CALC ADD, " + number,
+                                   "CALCX SWAP",
+                                   "SGP " + variable + ", 2, " + number,
+                                   "GGP " + variable + ", 2",
+                                   "AGP " + variable + ", 2",
+                                   "CSUB Sub",
+                                   "COMP " + number + "\nJC GT, " + label + "\nCALC MUL, 3\n" + label + ":"};
+    text += choices[static_cast<std::size_t>(*rc::gen::inRange(0, static_cast<int>(std::size(choices))))] + "\n";
+  }
+  return text + "JA Begin\nSub: CALC ADD, 1\nCSUB Inner\nRSUB\nInner: CALC MUL, 2\nRSUB\n";
+}
+
+RC_GTEST_PROP(DebuggedModule, GoesThroughTheSameAddressesAsATwinWithTheSameStack, ()) {
+  const std::string source = random_program();
+  LoadedBench module(source);
+  TwinTarget target{TwinSetup{}};
+  Engine twin(target, program_of(source));
+  launch(twin);
+  for (int i = *rc::gen::inRange(1, 80); i > 0; --i) {
+    const auto kind = *rc::gen::element(Motion::Kind::step, Motion::Kind::step_over);
+    RC_ASSERT(go(module.engine, kind).address == go(twin, kind).address);
+    const std::vector<Frame> seen = module.engine.frames();
+    const std::vector<Frame> real = twin.frames();
+    RC_ASSERT(seen.size() == real.size());
+    for (std::size_t frame = 0; frame < seen.size(); ++frame) RC_ASSERT(seen[frame].address == real[frame].address);
+    RC_ASSERT(value_of(module.engine.registers()).accumulator == value_of(twin.registers()).accumulator);
+  }
+}
+
+}  // namespace
+}  // namespace opentmcl::debug
