@@ -4,7 +4,7 @@
 # shellcheck disable=SC2034  # the lists are read by the scripts that source this file
 packages_to_build=(
   cmake ninja-build g++ ccache python3
-  libboost1.81-dev libcli11-dev libfmt-dev libtomlplusplus-dev nlohmann-json3-dev
+  libboost1.81-dev libcli11-dev libfmt-dev libtomlplusplus-dev nlohmann-json3-dev libedit-dev
 )
 # shellcheck disable=SC2034
 packages_to_test=(

@@ -30,4 +30,10 @@ bool Interruption::requested() const {
   return interruption_requested != 0;
 }
 
+bool Interruption::take() const {
+  if (interruption_requested == 0) return false;
+  interruption_requested = 0;
+  return true;
+}
+
 }  // namespace opentmcl::app

@@ -12,6 +12,8 @@ class Interruption {
 
   /// Whether one of them has come.
   bool requested() const;
+  /// The same, and from then on it has not come.
+  bool take() const;
 };
 
 }  // namespace opentmcl::app

@@ -52,6 +52,7 @@ int run(int argument_count, char** arguments) {
   add_fmt(app, context);
   add_lsp(app, context);
   add_run(app, context);
+  add_debug(app, context);
   add_get(app, context);
   add_set(app, context);
   add_rotate(app, context);

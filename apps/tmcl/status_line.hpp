@@ -21,6 +21,8 @@ class StatusLine {
   void show(const std::string& text);
   /// What is shown stays; further output begins on a new line.
   void end();
+  /// There is nothing to stay: it was overwritten with nothing.
+  void forget() { is_open_ = false; }
 
  private:
   bool is_terminal_;
