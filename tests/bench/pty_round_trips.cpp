@@ -1,5 +1,6 @@
 // Round trips of nine bytes per second through a pseudo terminal: a virtual module against a program that only sends
 // back what it gets. Both are processes of their own, asked in turns, so that whatever else the machine does hits both.
+// And single steps of the debugger through the same pseudo terminal, each of which takes two round trips.
 //
 // usage: pty_round_trips path/to/tmcl [rounds] [round trips per round]
 
@@ -15,11 +16,17 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "client/client.hpp"
 #include "client/file_descriptor.hpp"
+#include "client/serial_transport.hpp"
+#include "debug/engine.hpp"
+#include "debug/module_target.hpp"
 #include "firmware/spec/axis_parameters.hpp"
 #include "firmware/spec/instructions.hpp"
 #include "firmware/wire/datagram.hpp"
@@ -111,6 +118,49 @@ double measure(int port, int count) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
+/// A program of a virtual module that is debugged through its pseudo terminal.
+class SteppedProgram {
+ public:
+  explicit SteppedProgram(const std::string& port)
+      : transport_(value_of(opentmcl::client::open_serial(port))),
+        client_(*transport_),
+        target_(client_, opentmcl::pd1161),
+        engine_(target_, loop()) {
+    const auto every = [](std::size_t, std::size_t) { return true; };
+    value_of(engine_.download(value_of(engine_.compare(every)), every));
+    value_of(engine_.restart());
+  }
+
+  /// Seconds for `count` steps, one at a time.
+  double measure(int count) {
+    const auto begin = std::chrono::steady_clock::now();
+    for (int i = 0; i < count; ++i) {
+      value_of(engine_.go({opentmcl::debug::Motion::Kind::step, 0, {}}, [](const auto&) { return true; }));
+    }
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  }
+
+ private:
+  template <class T>
+  static T value_of(opentmcl::client::Result<T> result) {
+    if (!result) throw std::runtime_error(result.error().message);
+    return std::move(*result);
+  }
+
+  static opentmcl::debug::Program loop() {
+    using opentmcl::Opcode;
+    return opentmcl::debug::Program::disassembled({{static_cast<std::uint8_t>(Opcode::calc), 0, 0, 1},
+                                                   {static_cast<std::uint8_t>(Opcode::calcx), 0, 0, 0},
+                                                   {static_cast<std::uint8_t>(Opcode::ja), 0, 0, 0}},
+                                                  opentmcl::pd1161, "loop");
+  }
+
+  std::unique_ptr<opentmcl::client::Transport> transport_;
+  opentmcl::client::Client client_;
+  opentmcl::debug::ModuleTarget target_;
+  opentmcl::debug::Engine engine_;
+};
+
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   return values[values.size() / 2];
@@ -130,6 +180,8 @@ void compare(const char* program, int rounds, int count) {
   std::vector<double> echo_times;
   std::vector<double> module_times;
   std::vector<double> ratios;
+  std::vector<double> step_times;
+  std::vector<double> step_ratios;
   {
     const Child echo_process(start_echo(own_side.get()));
     const Child simulation(start_simulation(program, link));
@@ -138,16 +190,22 @@ void compare(const char* program, int rounds, int count) {
     make_raw(module_port.get());
     measure(echo_port.get(), count);
     measure(module_port.get(), count);
+    SteppedProgram program_of_module(link);
     for (int round = 0; round < rounds; ++round) {
       echo_times.push_back(measure(echo_port.get(), count));
       module_times.push_back(measure(module_port.get(), count));
       ratios.push_back(echo_times.back() / module_times.back());
+      step_times.push_back(program_of_module.measure(count));
+      step_ratios.push_back(echo_times.back() / step_times.back());
     }
   }
   ::rmdir(folder);
   std::printf("bare echo   %8.0f round trips/s\n", count / median(echo_times));
   std::printf("tmcl sim    %8.0f round trips/s\n", count / median(module_times));
   std::printf("ratio       %8.3f (median of %d rounds of %d)\n", median(ratios), rounds, count);
+  std::printf("debugger    %8.0f steps/s\n", count / median(step_times));
+  std::printf("ratio       %8.3f to the bare echo, %.3f to tmcl sim\n", median(step_ratios),
+              median(module_times) / median(step_times));
 }
 
 }  // namespace
