@@ -108,7 +108,11 @@ RULES = (
     # Servers that an editor starts. What they share knows no protocol above JSON messages.
     Rule("editor", (), ANY_SYSTEM_HEADER),
     Rule("editor/lsp", ("editor/message_*.hpp", "lang", "firmware/spec"), ANY_SYSTEM_HEADER),
-    Rule("apps", ("firmware", "boards/twin", "twin", "lang", "scenario", "client", "debug", "server", "editor"), ANY_SYSTEM_HEADER),
+    Rule(
+        "apps",
+        ("firmware", "boards/twin", "twin", "lang", "scenario", "client", "debug", "server", "editor"),
+        ANY_SYSTEM_HEADER,
+    ),
     Rule(
         "tests",
         ("firmware", "boards/twin", "twin", "lang", "scenario", "client", "debug", "server", "editor", "apps"),
