@@ -14,6 +14,7 @@ void add_scenario(CLI::App& app, Context& context);
 void add_sim_ctl(CLI::App& sim, Context& context);  ///< below `sim`
 void add_farm(CLI::App& app, Context& context);
 void add_asm(CLI::App& app, Context& context);
+void add_dap(CLI::App& app, Context& context);
 void add_debug(CLI::App& app, Context& context);
 void add_dis(CLI::App& app, Context& context);
 void add_fmt(CLI::App& app, Context& context);

@@ -53,6 +53,7 @@ int run(int argument_count, char** arguments) {
   add_lsp(app, context);
   add_run(app, context);
   add_debug(app, context);
+  add_dap(app, context);
   add_get(app, context);
   add_set(app, context);
   add_rotate(app, context);

@@ -107,6 +107,12 @@ RULES = (
     ),
     # Servers that an editor starts. What they share knows no protocol above JSON messages.
     Rule("editor", (), ANY_SYSTEM_HEADER),
+    # A face of the debugger. How modules are found and sources read it is told by a function that apps/tmcl hands in.
+    Rule(
+        "editor/dap",
+        ("editor/message_*.hpp", "debug", "client", "lang", "firmware/spec", "firmware/wire"),
+        ANY_SYSTEM_HEADER,
+    ),
     Rule("editor/lsp", ("editor/message_*.hpp", "lang", "firmware/spec"), ANY_SYSTEM_HEADER),
     Rule(
         "apps",

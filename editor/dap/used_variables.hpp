@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstdint>
+#include <set>
+#include <vector>
+
+#include "firmware/wire/datagram.hpp"
+
+namespace opentmcl::editor::dap {
+
+/// The user variables that instructions name. Those that only X names (SIV, GIV, AIV) nobody knows before the program
+/// runs.
+std::set<std::uint8_t> used_variables(const std::vector<Command>& commands);
+
+}  // namespace opentmcl::editor::dap
