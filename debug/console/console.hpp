@@ -109,7 +109,6 @@ class Console {
   Done move(Motion motion);
   Done move_repeatedly(Motion::Kind kind, std::string_view arguments);
   bool goes_on(const Underway& underway);
-  client::Result<void> assign(std::string_view subject, double value);
   Done added(client::Result<int> number);
   void show_displays();
   void show_value(const std::string& name, const client::Result<double>& value);

@@ -8,12 +8,12 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "debug/assignment.hpp"
 #include "debug/console/console.hpp"
 #include "debug/console/place.hpp"
-#include "firmware/spec/instructions.hpp"
-#include "firmware/spec/interrupts.hpp"
+#include "debug/inner_state_text.hpp"
+#include "firmware/spec/global_parameters.hpp"
 #include "lang/diagnostic.hpp"
-#include "lang/names.hpp"
 
 namespace opentmcl::debug {
 
@@ -37,46 +37,6 @@ std::string_view trimmed(std::string_view text) {
   while (text.ends_with(' ')) text.remove_suffix(1);
   return text;
 }
-
-const char* word_of(Comparison comparison) {
-  switch (comparison) {
-    case Comparison::lower:
-      return "lower";
-    case Comparison::equal:
-      return "equal or zero";
-    case Comparison::greater:
-      return "greater";
-  }
-  return "";
-}
-
-/// "ETO EDV", as CLE names them.
-std::string names_of_flags(std::uint8_t flags) {
-  std::string names;
-  for (const Keyword& word : error_flag_words) {
-    if (word.value == 0 || (flags >> (word.value - 1) & 1) == 0) continue;
-    names += fmt::format("{}{}", names.empty() ? "" : " ", word.word);
-  }
-  return names.empty() ? "none" : names;
-}
-
-std::string names_of_interrupts(const std::vector<std::uint8_t>& numbers) {
-  std::string names;
-  for (const std::uint8_t number : numbers) {
-    for (const InterruptSpec& row : interrupts) {
-      if (static_cast<std::uint8_t>(row.number) != number) continue;
-      names += fmt::format("{}{} ({})", names.empty() ? "" : ", ", row.symbol, number);
-    }
-  }
-  return names.empty() ? "none" : names;
-}
-
-/// What can be read and also be set: the name of the read, and the instruction that sets it.
-struct Settable {
-  std::string_view read;
-  std::string_view write;
-};
-constexpr Settable settables[] = {{"GAP", "SAP"}, {"GGP", "SGP"}, {"GIO", "SIO"}};
 
 }  // namespace
 
@@ -133,52 +93,13 @@ Console::Done Console::examine(std::string_view arguments) {
   return Outcome::done;
 }
 
-Result<void> Console::assign(std::string_view subject, double value) {
-  const std::size_t open = subject.find('(');
-  const bool is_call = open != std::string_view::npos && subject.ends_with(')');
-  const bool is_a = lang::equal_ignoring_case(subject, "A");
-  const bool is_x = lang::equal_ignoring_case(subject, "X");
-  if (!is_call && !is_a && !is_x) {
-    if (TwinPowers* const twin = engine_.target().twin()) return twin->set_quantity(subject, value);
-    return mistake("expected A, X, VAR(number), GAP(parameter, motor), GGP(parameter, bank) or GIO(port, bank), not " +
-                   lang::in_quotes(subject));
-  }
-  if (value < int32_minimum || value > int32_maximum || value != std::floor(value)) {
-    return mistake("expected a whole number of 32 bits, not " + value_text(value));
-  }
-  const auto number = static_cast<std::int32_t>(value);
-  if (is_a) return engine_.set_accumulator(number);
-  if (is_x) return engine_.set_x(number);
-  const std::string_view name = trimmed(subject.substr(0, open));
-  const std::string_view inside = subject.substr(open + 1, subject.size() - open - 2);
-  if (lang::equal_ignoring_case(name, "VAR")) {
-    const Result<double> variable = engine_.evaluate(inside);
-    if (!variable) return variable.error();
-    constexpr double last_variable = user_variable_count - 1;
-    if (*variable < 0 || *variable > last_variable || *variable != std::floor(*variable)) {
-      return mistake("there is no user variable " + value_text(*variable) + ": they go from 0 to " +
-                     value_text(last_variable));
-    }
-    return engine_.set_variable(static_cast<std::uint8_t>(*variable), number);
-  }
-  for (const Settable& settable : settables) {
-    if (!lang::equal_ignoring_case(name, settable.read)) continue;
-    const bool has_both = inside.find(',') != std::string_view::npos;
-    const Result<std::int32_t> set =
-        engine_.execute(fmt::format("{} {}{}, {}", settable.write, inside, has_both ? "" : ", 0", number));
-    if (!set) return set.error();
-    return {};
-  }
-  return mistake(lang::in_quotes(name) + " cannot be set");
-}
-
 Console::Done Console::set(std::string_view arguments) {
   const std::size_t sign = arguments.find('=');
   if (sign == std::string_view::npos) return mistake("expected WHAT = EXPRESSION, such as: set VAR(3) = 7");
   const std::string_view subject = trimmed(arguments.substr(0, sign));
   const Result<double> value = engine_.evaluate(trimmed(arguments.substr(sign + 1)));
   if (!value) return value.error();
-  const Result<void> done = assign(subject, *value);
+  const Result<void> done = debug::assign(engine_, subject, *value);
   if (!done) return done.error();
   return Outcome::done;
 }
@@ -256,8 +177,8 @@ Console::Done Console::info_registers() {
     return Outcome::done;
   }
   const InnerState& inner = *registers->inner;
-  print_line(fmt::format("comparison   {}", word_of(inner.comparison)));
-  print_line(fmt::format("error flags  {}", names_of_flags(inner.error_flags)));
+  print_line(fmt::format("comparison   {}", name_of(inner.comparison)));
+  print_line(fmt::format("error flags  {}", names_of_error_flags(inner.error_flags)));
   print_line(fmt::format("interrupts   {}{}", names_of_interrupts(inner.enabled_interrupts),
                          inner.interrupted ? "; in a routine" : ""));
   return Outcome::done;
