@@ -42,7 +42,8 @@ std::string Listing::faint(const std::string& text) const {
 
 std::string Listing::place(std::uint16_t address) const {
   const auto line = program_.line_of(address);
-  std::string text = program_.name_of(address);
+  const bool has_label = !program_.place_of(address).label.empty();
+  std::string text = (has_label ? "" : "address ") + program_.name_of(address);
   if (line) text += fmt::format(", {}:{}", program_.file_name(line->file), line->line);
   return text;
 }

@@ -115,6 +115,8 @@ Result<ProgramStatus> TwinTarget::status() {
 Result<ProgramStatus> TwinTarget::restart() {
   bool busy = false;
   carry_out(request_of(control(Opcode::stop_application)), busy);
+  // What the bench does in this time is no part of any history.
+  furthest_ = never;
   module_->advance_to(module_->now() + time_to_settle);
   setup_.eeprom = module_->world().eeprom().image();
   deeds_.clear();
