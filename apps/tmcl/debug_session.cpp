@@ -38,7 +38,7 @@ Result<scenario::Scenario> read_bench(const std::string& path, const DebugListen
 
 Result<debug::Program> assembled(const std::string& path, const DebugRequest& request, const ModuleDescription& module,
                                  const DebugListeners& listeners) {
-  Result<std::string> text = read_file(path);
+  Result<std::string> text = read_source(path);
   if (!text) return text.error();
   lang::AssemblerOptions options;
   options.module = &module;
@@ -84,7 +84,7 @@ Result<const ModuleDescription*> simulated_module(const Context& context) {
 
 /// The module that a source says it is for; nullptr if it says none. Error: bad_file.
 Result<const ModuleDescription*> module_of_comment(const std::string& path) {
-  const Result<std::string> text = read_file(path);
+  const Result<std::string> text = read_source(path);
   if (!text) return text.error();
   const std::optional<lang::ModuleComment> comment = lang::module_named_in(*text);
   if (!comment) return nullptr;
