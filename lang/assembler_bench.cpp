@@ -1,12 +1,12 @@
 // How fast sources become programs. The source is what a large program looks like: initialisation, comments, labels,
 // jumps forward and back, constants, some expressions.
 #include <benchmark/benchmark.h>
-#include <unistd.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <string>
 #include <utility>
 
@@ -64,7 +64,7 @@ AssemblerOptions options(bool check_program = false) {
 class SourceFileOnDisk {
  public:
   explicit SourceFileOnDisk(const std::string& text)
-      : path_((std::filesystem::temp_directory_path() / ("assembler_bench." + std::to_string(::getpid()))).string()) {
+      : path_((std::filesystem::temp_directory_path() / ("assembler_bench." + std::to_string(std::random_device()()))).string()) {
     std::ofstream(path_, std::ios::binary) << text;
   }
   ~SourceFileOnDisk() { std::filesystem::remove(path_); }
