@@ -64,7 +64,8 @@ AssemblerOptions options(bool check_program = false) {
 class SourceFileOnDisk {
  public:
   explicit SourceFileOnDisk(const std::string& text)
-      : path_((std::filesystem::temp_directory_path() / ("assembler_bench." + std::to_string(std::random_device()()))).string()) {
+      : path_((std::filesystem::temp_directory_path() / ("assembler_bench." + std::to_string(std::random_device()())))
+                  .string()) {
     std::ofstream(path_, std::ios::binary) << text;
   }
   ~SourceFileOnDisk() { std::filesystem::remove(path_); }
