@@ -102,10 +102,11 @@ Result<Stop> Engine::go_forward(const Motion& motion, const KeepGoing& keep_goin
     for (unsigned i = 0; i < target_.steps_a_slice(); ++i) {
       const Result<bool> stepped = step_once();
       if (!stepped) return stepped.error();
-      if (ended_) return stand(Stop::Reason::ended);
-      const Result<std::optional<Stop>> stop = met(*stepped, true);
+      // What has happened may be why it has ended.
+      const Result<std::optional<Stop>> stop = met(*stepped && !ended_, true);
       if (!stop) return stop.error();
       if (*stop) return **stop;
+      if (ended_) return stand(Stop::Reason::ended);
       if (!*stepped) {
         target_.rest();
         break;
@@ -134,12 +135,10 @@ Result<std::optional<Stop>> Engine::run_unseen(const Motion& motion, client::Dur
     if (!status) return status.error();
     status_ = *status;
     at_instruction_ = true;
-    if (status_.state == ProgramStatus::State::stopped) {
-      ended_ = true;
-      return std::optional(stand(Stop::Reason::ended));
-    }
+    ended_ = status_.state == ProgramStatus::State::stopped;
     const Result<std::optional<Stop>> trouble = met(false, true);
     if (!trouble) return trouble.error();
+    if (ended_) return *trouble ? *trouble : std::optional(stand(Stop::Reason::ended));
     const bool goes_on = keep_going({status_.program_counter, false, 0});
     const bool in_time = !is_over(motion, begin, target_.now());
     if (!*trouble && goes_on && in_time && !needs_stepping(motion)) continue;

@@ -231,15 +231,77 @@ TEST(DebuggedTwin, StopsWhenASignalBecomesTrue) {
   EXPECT_FALSE(bench.engine.add(request));
 }
 
-TEST(DebuggedTwin, StopsWhenTheSupplyFails) {
+TEST(DebuggedTwin, SaysThatTheSupplyHasFailedWhenThatEndsTheProgram) {
   Bench bench("Loop: JA Loop\n");
   bench.engine.stop_at_troubles(static_cast<std::uint8_t>(Trouble::under_voltage));
-  int asked = 0;
-  value_of(bench.engine.go({Motion::Kind::run, 0, {}}, [&](const Underway&) { return ++asked < 3; }));
+  const auto take_the_supply = [&](const Underway&) {
+    expect_done(bench.engine.target().twin()->set_quantity("supply_voltage", 5));
+    return true;
+  };
+  const Stop stop = value_of(bench.engine.go({Motion::Kind::run, 0, {}}, take_the_supply));
+  EXPECT_EQ(Stop::Reason::trouble, stop.reason);
+  EXPECT_EQ("under-voltage", stop.description);
+  EXPECT_TRUE(bench.engine.has_ended());
+}
+
+TEST(DebuggedTwin, SaysThatTheProgramHasEndedWhenTheSupplyHadFailedBefore) {
+  Bench bench("Loop: JA Loop\n");
+  bench.engine.stop_at_troubles(static_cast<std::uint8_t>(Trouble::under_voltage));
   expect_done(bench.engine.target().twin()->set_quantity("supply_voltage", 5));
-  const Stop stop = go(bench.engine, Motion::Kind::run);
-  // Known when the program was let go: it is the program that ends.
-  EXPECT_EQ(Stop::Reason::ended, stop.reason);
+  EXPECT_EQ(Stop::Reason::ended, go(bench.engine, Motion::Kind::run).reason);
+}
+
+/// On the default stage, 5 mm before its hard end.
+TwinSetup near_the_end() {
+  scenario::ScenarioFile file =
+      scenario::read_scenario("module = \"pd1161\"\nduration = \"10 s\"\n[machine]\nstart = \"-45 mm\"\n");
+  TwinSetup setup;
+  setup.scenario = file.scenario.value();
+  return setup;
+}
+
+/// 150 rpm to the left; a stall stops the motor.
+constexpr std::string_view into_the_end = R"(
+#include TMCLParam.tmc
+        SAP APPulseDivisor, 0, 0
+        SAP APMaxCurrent, 0, 128
+        SAP APStallGuardFilter, 0, 0
+        SAP APStallGuardThreshold, 0, -18
+        ROL 0, 524
+        WAIT TICKS, 0, 20
+        SAP APStopOnStall, 0, 500
+Loop:   JA Loop
+)";
+
+TEST(DebuggedTwin, StopsWhenTheMotorStalls) {
+  Bench bench(into_the_end, near_the_end());
+  bench.engine.stop_at_troubles(static_cast<std::uint8_t>(Trouble::stall));
+  const Stop stop = value_of(bench.engine.go({Motion::Kind::run, 0, std::chrono::seconds(10)}, always));
+  EXPECT_EQ(Stop::Reason::trouble, stop.reason);
+  EXPECT_EQ("stall", stop.description);
+}
+
+TEST(DebuggedTwin, DoesNotStopAtATroubleNobodyAskedFor) {
+  Bench bench(into_the_end, near_the_end());
+  bench.engine.stop_at_troubles(static_cast<std::uint8_t>(Trouble::deviation));
+  const Stop stop = value_of(bench.engine.go({Motion::Kind::run, 0, std::chrono::seconds(10)}, always));
+  EXPECT_EQ(Stop::Reason::limit, stop.reason);
+}
+
+TEST(DebuggedTwin, StopsWhenTheEncoderDeviates) {
+  Bench bench(R"(
+        SAP 212, 0, 2000
+        ROR 0, 500
+Loop:   JA Loop
+)");
+  bench.engine.stop_at_troubles(static_cast<std::uint8_t>(Trouble::deviation));
+  const auto jam_the_shaft = [&](const Underway&) {
+    expect_done(bench.engine.target().twin()->set_quantity("load.jammed", 1));
+    return true;
+  };
+  const Stop stop = value_of(bench.engine.go({Motion::Kind::run, 0, std::chrono::seconds(10)}, jam_the_shaft));
+  EXPECT_EQ(Stop::Reason::trouble, stop.reason);
+  EXPECT_EQ("deviation", stop.description);
 }
 
 // ---- Back in time
