@@ -161,8 +161,9 @@ class Collection {
       if (!contains(row.modules, module_->id)) continue;
       // The bank has an operand of its own.
       const std::string text = std::to_string(row.port);
-      const std::string bank = std::to_string(static_cast<int>(row.bank));
-      add(CompletionKind::number, text, text + " bank " + bank + ": " + row.description, [&] { return explain(row); });
+      std::string detail = text;
+      detail.append(" bank ").append(std::to_string(static_cast<int>(row.bank))).append(": ").append(row.description);
+      add(CompletionKind::number, text, detail, [&] { return explain(row); });
     }
   }
 
