@@ -221,9 +221,10 @@ std::vector<Frame> Engine::frames() {
   }
   std::vector<Frame> frames;
   std::uint16_t address = status_.program_counter;
-  for (auto routine = open.rbegin(); routine != open.rend(); ++routine) {
-    frames.push_back({address, routine->is_interrupt});
-    address = routine->return_address;
+  std::reverse(open.begin(), open.end());
+  for (const OpenRoutine& routine : open) {
+    frames.push_back({address, routine.is_interrupt});
+    address = routine.return_address;
   }
   frames.push_back({address, false});
   return frames;
@@ -281,7 +282,7 @@ Result<std::int32_t> Engine::execute(std::string_view instruction) {
 Result<Command> Engine::command_at(std::uint16_t address) {
   if (address < program_.size()) return program_.commands()[address];
   if (const auto known = beyond_.find(address); known != beyond_.end()) return known->second;
-  const Result<Command> read = client::read_instruction(target_.client(), address);
+  Result<Command> read = client::read_instruction(target_.client(), address);
   if (read) beyond_.emplace(address, *read);
   return read;
 }

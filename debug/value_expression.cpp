@@ -404,7 +404,7 @@ Result<double> Node::evaluate_operation(ValueSource& source) const {
   if (operation == Operation::either && is_truth(left)) return 1.0;
   double right = 0;
   if (operands.size() > 1) {
-    const Result<double> second = operands[1]->evaluate(source);
+    Result<double> second = operands[1]->evaluate(source);
     if (!second) return second;
     right = *second;
   }

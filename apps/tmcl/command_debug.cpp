@@ -160,7 +160,7 @@ Result<Console::Outcome> talk(Console& console, Lines& lines, bool interactive) 
     }
     interrupted_before = false;
     if (!*has_line) return Console::Outcome::quit;
-    const Result<Console::Outcome> outcome = console.execute(line);
+    Result<Console::Outcome> outcome = console.execute(line);
     if (outcome) {
       if (*outcome != Console::Outcome::done) return outcome;
       continue;
@@ -239,7 +239,7 @@ Result<void> run_debug(const Context& context, const DebugOptions& options) {
   // A twin ends with this program; a module is not left to a program that nobody watches any more.
   if (engine.target().twin() == nullptr) {
     const bool runs_on = outcome && *outcome == Console::Outcome::detach;
-    const Result<void> left = runs_on ? engine.detach() : engine.stop_all();
+    Result<void> left = runs_on ? engine.detach() : engine.stop_all();
     if (!left && outcome) return left;
     if (left) fmt::print(stderr, "{}\n", runs_on ? "the program runs on" : "program and motor have been stopped");
   }

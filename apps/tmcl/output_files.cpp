@@ -101,7 +101,7 @@ Result<void> OutputFiles::write() const {
     const std::filesystem::file_status status = std::filesystem::status(file.path, error);
     if (std::filesystem::is_directory(status)) return cannot_write(file.path, "it is a folder");
     const bool is_special = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
-    const Result<void> written =
+    Result<void> written =
         is_special ? write_to(file.path, file.content, file.path) : replacements.prepare(file.path, file.content);
     if (!written) return written;
   }

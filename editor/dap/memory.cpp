@@ -48,7 +48,7 @@ Result<std::int64_t> byte_of_reference(std::string_view reference) {
 
 /// An integer of the arguments that is no larger than anything sensible.
 Result<std::int64_t> offset_of(const json& arguments, const char* name) {
-  const Result<std::int64_t> offset = optional_integer(arguments, name, 0);
+  Result<std::int64_t> offset = optional_integer(arguments, name, 0);
   if (offset.ok() && (*offset > largest_offset || *offset < -largest_offset)) {
     return mistake(lang::in_quotes(name).append(" is ").append(std::to_string(*offset)).append(": beyond any memory"));
   }
@@ -56,7 +56,7 @@ Result<std::int64_t> offset_of(const json& arguments, const char* name) {
 }
 
 Result<std::int64_t> count_of(const json& arguments, const char* name, std::int64_t most) {
-  const Result<std::int64_t> count = required_integer(arguments, name);
+  Result<std::int64_t> count = required_integer(arguments, name);
   if (count.ok() && (*count < 0 || *count > most)) {
     const std::string expected = ": expected 0 to " + std::to_string(most);
     return mistake(lang::in_quotes(name).append(" is ").append(std::to_string(*count)).append(expected));

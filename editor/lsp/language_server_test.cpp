@@ -6,6 +6,7 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -183,13 +184,14 @@ RC_GTEST_PROP(LanguageServer, KnowsTheSameTextFromEditsAndAsAWhole, ()) {
 }
 
 /// Applies what the server wants to be changed, as a client does.
-std::string applied(const json& edits, const std::string& text) {
+std::string applied(json edits, const std::string& text) {
   const TextIndex index(text, PositionEncoding::utf16);
   std::string result = text;
-  for (auto edit = edits.rbegin(); edit != edits.rend(); ++edit) {
-    const std::optional<Range> range = range_of((*edit)["range"]);
+  std::reverse(edits.begin(), edits.end());  // the places of the others stay
+  for (const json& edit : edits) {
+    const std::optional<Range> range = range_of(edit["range"]);
     const std::size_t begin = index.offset_of(range->start);
-    result.replace(begin, index.offset_of(range->end) - begin, (*edit)["newText"].get<std::string>());
+    result.replace(begin, index.offset_of(range->end) - begin, edit["newText"].get<std::string>());
   }
   return result;
 }
