@@ -25,7 +25,7 @@ Program::Program(lang::AssemblyResult assembled, const ModuleDescription& module
   });
 }
 
-Program Program::disassembled(std::vector<Command> commands, const ModuleDescription& module, std::string name) {
+Program Program::disassembled(std::vector<Command> commands, const ModuleDescription& module, std::string_view name) {
   const lang::Disassembly source = lang::disassemble(commands, module);
   lang::MemoryFiles no_files;
   lang::AssemblerOptions options;
@@ -39,7 +39,7 @@ Program Program::disassembled(std::vector<Command> commands, const ModuleDescrip
     bare.commands = std::move(commands);
     assembled.program = std::move(bare);
   }
-  return Program(std::move(assembled), module);
+  return {std::move(assembled), module};
 }
 
 std::optional<lang::FileId> Program::find_file(std::string_view name) const {

@@ -28,7 +28,7 @@ class Program {
   /// @pre `assembled` has a program
   Program(lang::AssemblyResult assembled, const ModuleDescription& module);
   /// Of a program without a source, such as one that was read out of a module: its source is its disassembly.
-  static Program disassembled(std::vector<Command> commands, const ModuleDescription& module, std::string name);
+  static Program disassembled(std::vector<Command> commands, const ModuleDescription& module, std::string_view name);
 
   const ModuleDescription& module() const { return *module_; }
   const std::vector<Command>& commands() const { return program_.commands; }

@@ -193,13 +193,13 @@ void TwinTarget::let_pass(Microseconds duration) {
 
 // ---- History
 
-void TwinTarget::note(Deed deed) {
+void TwinTarget::note(const Deed& deed) {
   if (repeated_ < deeds_.size()) {
     // Another future begins here.
     deeds_.resize(repeated_, deed);
     furthest_ = module_->now();
   }
-  deeds_.push_back(std::move(deed));
+  deeds_.push_back(deed);
   ++repeated_;
 }
 
@@ -215,7 +215,7 @@ void TwinTarget::repeat(const Deed& deed) {
     bool busy = false;
     carry_out(request_of(*command), busy);
   } else {
-    const QuantitySet& set = std::get<QuantitySet>(deed.what);
+    const auto& set = std::get<QuantitySet>(deed.what);
     set.quantity->write(module_->world(), set.value);
   }
 }

@@ -87,7 +87,7 @@ class TwinTarget final : public Target, private TwinPowers, private FrozenTransp
 
   void begin(bool starts_program);
   std::optional<Datagram> carry_out(const Datagram& request, bool& busy);
-  void note(Deed deed);
+  void note(const Deed& deed);
   void pass_time_until(Microseconds time);
   void repeat(const Deed& deed);
   void repeat_deeds_until(Moment moment);

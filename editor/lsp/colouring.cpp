@@ -14,7 +14,17 @@ using lang::TokenRole;
 
 namespace {
 
-enum class Colour : std::uint8_t { comment, keyword, macro, function, enum_member, variable, label, number, operator_ };
+enum class Colour : std::uint8_t {
+  comment,
+  keyword,
+  macro,
+  function,
+  enum_member,
+  variable,
+  label,
+  number,
+  arithmetic
+};
 
 /// In the order of Colour; the names are the protocol's, "label" is new in 3.18 and skipped by clients without it.
 constexpr std::array<const char*, 9> colour_names = {"comment",  "keyword", "macro",  "function", "enumMember",
@@ -64,7 +74,7 @@ std::optional<Paint> paint_of(const View& view, const SourceLine& line, std::siz
     case lang::TokenKind::close:
       return std::nullopt;
     default:
-      return Paint{Colour::operator_};
+      return Paint{Colour::arithmetic};
   }
 }
 
