@@ -103,7 +103,7 @@ Result<const ModuleDescription*> module_of_twin(const Context& context, const De
   const ModuleDescription* wanted = bench ? bench->module : nullptr;
   std::string who = request.scenario;
   if (!request.module.empty()) {
-    const Result<const ModuleDescription*> named = named_module(request.module);
+    Result<const ModuleDescription*> named = named_module(request.module);
     if (!named) return named;
     wanted = *named;
     who = "--module";
@@ -115,7 +115,7 @@ Result<const ModuleDescription*> module_of_twin(const Context& context, const De
     }
   }
   if (wanted == nullptr) {
-    const Result<const ModuleDescription*> by_source = module_of_comment(path);
+    Result<const ModuleDescription*> by_source = module_of_comment(path);
     if (!by_source) return by_source;
     wanted = *by_source;
     who = path;

@@ -62,7 +62,7 @@ class DiffWriter {
       count_after += count_lines(coming);
     }
     const std::size_t count_before = end - begin + 1;
-    const std::size_t begin_after = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(begin) + lines_added_);
+    const auto begin_after = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(begin) + lines_added_);
     lines_added_ += static_cast<std::ptrdiff_t>(count_after) - static_cast<std::ptrdiff_t>(count_before);
     return fmt::format("@@ -{},{} +{},{} @@\n{}", begin, count_before, count_after == 0 ? begin_after - 1 : begin_after,
                        count_after, text);
