@@ -107,7 +107,8 @@ LineEditor::LineEditor(Completions completions, std::string history_file) : stat
   el_set(editor, EL_PROMPT, prompt_of);
   el_set(editor, EL_EDITOR, "emacs");
   el_set(editor, EL_HIST, history, state_->history);
-  el_set(editor, EL_ADDFN, "tmcl-complete", "Complete a word", complete);
+  // The wide form keeps these texts; the other one makes copies of them that nobody frees.
+  el_wset(editor, EL_ADDFN, L"tmcl-complete", L"Complete a word", complete);
   el_set(editor, EL_BIND, "^I", "tmcl-complete", nullptr);
   el_set(editor, EL_BIND, "^R", "em-inc-search-prev", nullptr);
   el_set(editor, EL_GETCFN, read_character);
