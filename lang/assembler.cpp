@@ -225,29 +225,37 @@ class Assembler {
   }
 
   const InstructionSpec* find_instruction(const Token& name, const Text& text) {
-    const std::string_view mnemonic = text.of(name);
-    const InstructionSpec* const instruction = find_mnemonic(mnemonic);
+    const InstructionSpec* const instruction = find_packed_mnemonic(name.packed);
     if (instruction == nullptr) {
-      Suggestion suggestion(mnemonic);
-      for (const InstructionSpec& row : instructions) {
-        if (row.mnemonic != nullptr && diagnostics_.wants_suggestions()) suggestion.consider(row.mnemonic);
-      }
-      diagnostics_.add(DiagnosticKind::unknown_instruction, text.span_of(name),
-                       "there is no instruction " + in_quotes(mnemonic), suggestion.text(), {},
-                       fix_of(suggestion, text.span_of(name)));
+      report_unknown_instruction(name, text);
       return nullptr;
     }
     if (contains(instruction->modules, options_->module->id)) return instruction;
+    report_not_available(*instruction, text.span_of(name));
+    return nullptr;
+  }
+
+  [[gnu::cold]] void report_unknown_instruction(const Token& name, const Text& text) {
+    const std::string_view mnemonic = text.of(name);
+    Suggestion suggestion(mnemonic);
+    for (const InstructionSpec& row : instructions) {
+      if (row.mnemonic != nullptr && diagnostics_.wants_suggestions()) suggestion.consider(row.mnemonic);
+    }
+    diagnostics_.add(DiagnosticKind::unknown_instruction, text.span_of(name),
+                     "there is no instruction " + in_quotes(mnemonic), suggestion.text(), {},
+                     fix_of(suggestion, text.span_of(name)));
+  }
+
+  [[gnu::cold]] void report_not_available(const InstructionSpec& instruction, Span span) {
     std::string note;
     for (const ModuleDescription& module : modules) {
-      if (!contains(instruction->modules, module.id)) continue;
+      if (!contains(instruction.modules, module.id)) continue;
       note += (note.empty() ? "only on the " : " and the ") + describe(module);
     }
-    if (const char* const substitute = substitute_for(instruction->opcode)) note += std::string("; ") + substitute;
-    diagnostics_.add(DiagnosticKind::instruction_not_available, text.span_of(name),
-                     std::string(instruction->mnemonic) + " is not available on the " + describe(*options_->module),
+    if (const char* const substitute = substitute_for(instruction.opcode)) note += std::string("; ") + substitute;
+    diagnostics_.add(DiagnosticKind::instruction_not_available, span,
+                     std::string(instruction.mnemonic) + " is not available on the " + describe(*options_->module),
                      note);
-    return nullptr;
   }
 
   // ---- directives
@@ -325,7 +333,7 @@ class Assembler {
       const Text text = text_of(fixup.statement.file);
       Lexer lexer(text.characters, fixup.statement.offset);
       read_statement(lexer, statement);
-      const InstructionSpec& instruction = *find_mnemonic(text.of(statement.name));
+      const InstructionSpec& instruction = *find_packed_mnemonic(statement.name.packed);
       const Scope scope = scope_of(text, fixup.visible_constants);
       encoder_.encode(instruction, statement, scope, Pass::finishing, commands_[fixup.address]);
     }

@@ -98,13 +98,7 @@ class CommandCheck {
   void check_operand(std::size_t index) {
     const OperandSpec& operand = instruction_->operands[index];
     const std::int32_t value = operand_value(*command_, operand);
-    if (value < operand.minimum || value > operand.maximum) {
-      diagnostics_->add(DiagnosticKind::operand_out_of_range, span_of(index),
-                        std::to_string(value) + " is outside " + range_text(operand.minimum, operand.maximum) +
-                            ", the range of this operand of " + instruction_->mnemonic,
-                        operand.kind == OperandKind::velocity ? note_on(Unit::internal_velocity) : "");
-      return;
-    }
+    if (value < operand.minimum || value > operand.maximum) return report_range(index, value);
     switch (operand.kind) {
       case OperandKind::motor:
         if (instruction_->opcode != Opcode::wait || command_->type != wait_for_ticks) check_motor(index);
@@ -131,8 +125,19 @@ class CommandCheck {
 
   Span span_of(std::size_t index) const { return scope_->span_of(statement_->operands[index]); }
 
+  [[gnu::cold]] void report_range(std::size_t index, std::int32_t value) {
+    const OperandSpec& operand = instruction_->operands[index];
+    diagnostics_->add(DiagnosticKind::operand_out_of_range, span_of(index),
+                      std::to_string(value) + " is outside " + range_text(operand.minimum, operand.maximum) +
+                          ", the range of this operand of " + instruction_->mnemonic,
+                      operand.kind == OperandKind::velocity ? note_on(Unit::internal_velocity) : "");
+  }
+
   void check_motor(std::size_t index) {
-    if (command_->motor < module_->axis_count) return;
+    if (command_->motor >= module_->axis_count) report_motor(index);
+  }
+
+  [[gnu::cold]] void report_motor(std::size_t index) {
     diagnostics_->add(DiagnosticKind::no_such_motor, span_of(index),
                       "the " + describe(*module_) + " has no motor " + std::to_string(command_->motor));
   }
@@ -181,7 +186,7 @@ class CommandCheck {
     if (!exists) missing(index, "interrupt " + std::to_string(command_->type));
   }
 
-  void missing(std::size_t index, const std::string& what) {
+  [[gnu::cold]] void missing(std::size_t index, const std::string& what) {
     diagnostics_->add(DiagnosticKind::no_such_parameter, span_of(index),
                       "the " + describe(*module_) + " has no " + what);
   }

@@ -31,6 +31,17 @@ void store(Field field, std::int32_t value, Command& command) {
   }
 }
 
+/// Halves away from zero. Nearly all operands are small whole numbers already.
+double nearest_integer(double number) {
+  const bool is_small = number >= int32_minimum && number <= int32_maximum;
+  if (is_small && static_cast<double>(static_cast<std::int32_t>(number)) == number) return number;
+  return std::round(number);
+}
+
+bool fits(Field field, double whole) {
+  return field == Field::value ? whole >= int32_minimum && whole <= int32_maximum : whole >= 0 && whole <= 255;
+}
+
 /// "GAP takes 2 operands"
 std::string takes(const InstructionSpec& instruction) {
   const std::size_t count = operand_count(instruction);
@@ -55,11 +66,7 @@ Encoding InstructionEncoder::encode(const InstructionSpec& instruction, const St
   const std::size_t written = statement.operands.size();
   const std::size_t expected = operand_count(instruction);
   const bool too_few = written < expected && !operands_are_optional(instruction);
-  if (too_few || written > expected + 1) {
-    diagnostics_->add(DiagnosticKind::wrong_operand_count, scope.span_of(statement.name),
-                      takes(instruction) + ", not " + std::to_string(written));
-    return Encoding::failed;
-  }
+  if (too_few || written > expected + 1) return report_count(instruction, statement, scope);
   const std::size_t reported = diagnostics_->size();
   command = {static_cast<std::uint8_t>(instruction.opcode), 0, 0, 0};
   Encoding encoding = Encoding::done;
@@ -79,39 +86,48 @@ Encoding InstructionEncoder::encode(const InstructionSpec& instruction, const St
 
 Encoding InstructionEncoder::encode_operand(const OperandSpec& operand, TokenRange range, const Scope& scope, Pass pass,
                                             Command& command) {
-  if (range.size() == 1 && range.first->kind == TokenKind::name && takes_words(operand.kind)) {
-    const int value = find_word(operand.kind, range.first->text(scope.text));
-    if (value >= 0) {
-      store(operand.field, value, command);
-      return Encoding::done;
+  const Token& first = *range.first;
+  double number = first.number;
+  if (range.size() != 1 || first.kind != TokenKind::number) {
+    if (range.size() == 1 && first.kind == TokenKind::name && takes_words(operand.kind)) {
+      const int word = find_packed_word(operand.kind, first.packed);
+      if (word >= 0) {
+        store(operand.field, word, command);
+        return Encoding::done;
+      }
     }
+    const Encoding found = find_value(range, scope, pass, operand.kind, number);
+    if (found != Encoding::done) return found;
   }
-  double number = 0;
-  const Encoding found = find_value(range, scope, pass, operand.kind, number);
-  return found == Encoding::done ? encode_number(operand, number, range, scope, command) : found;
-}
-
-Encoding InstructionEncoder::encode_number(const OperandSpec& operand, double number, TokenRange range,
-                                           const Scope& scope, Command& command) {
-  const double rounded = std::trunc(number) == number ? number : std::round(number);
-  const bool in_value = operand.field == Field::value;
-  const double minimum = in_value ? int32_minimum : 0;
-  const double maximum = in_value ? int32_maximum : 255;
-  if (rounded < minimum || rounded > maximum) {
-    diagnostics_->add(DiagnosticKind::not_encodable, scope.span_of(range),
-                      in_value ? "the value does not fit 32 bits (-2147483648...2147483647)"
-                               : "the value does not fit 8 bits (0...255)");
-    return Encoding::failed;
-  }
+  const double rounded = nearest_integer(number);
+  if (!fits(operand.field, rounded)) return report_not_encodable(operand.field, range, scope);
   const auto value = static_cast<std::int32_t>(rounded);
   if (takes_words(operand.kind) && word_of(operand.kind, value) == nullptr) {
-    diagnostics_->add(DiagnosticKind::invalid_word, scope.span_of(range),
-                      std::to_string(value) + " stands for nothing here",
-                      "possible: " + list_of(keywords_of(operand.kind)));
-    return Encoding::failed;
+    return report_no_word(operand.kind, value, range, scope);
   }
   store(operand.field, value, command);
   return Encoding::done;
+}
+
+Encoding InstructionEncoder::report_count(const InstructionSpec& instruction, const Statement& statement,
+                                          const Scope& scope) {
+  diagnostics_->add(DiagnosticKind::wrong_operand_count, scope.span_of(statement.name),
+                    takes(instruction) + ", not " + std::to_string(statement.operands.size()));
+  return Encoding::failed;
+}
+
+Encoding InstructionEncoder::report_not_encodable(Field field, TokenRange range, const Scope& scope) {
+  diagnostics_->add(DiagnosticKind::not_encodable, scope.span_of(range),
+                    field == Field::value ? "the value does not fit 32 bits (-2147483648...2147483647)"
+                                          : "the value does not fit 8 bits (0...255)");
+  return Encoding::failed;
+}
+
+Encoding InstructionEncoder::report_no_word(OperandKind kind, std::int32_t value, TokenRange range,
+                                            const Scope& scope) {
+  diagnostics_->add(DiagnosticKind::invalid_word, scope.span_of(range),
+                    std::to_string(value) + " stands for nothing here", "possible: " + list_of(keywords_of(kind)));
+  return Encoding::failed;
 }
 
 Encoding InstructionEncoder::check_surplus(const InstructionSpec& instruction, TokenRange range, const Scope& scope,
@@ -126,10 +142,6 @@ Encoding InstructionEncoder::check_surplus(const InstructionSpec& instruction, T
 
 Encoding InstructionEncoder::find_value(TokenRange range, const Scope& scope, Pass pass, OperandKind kind,
                                         double& number) {
-  if (range.size() == 1 && range.first->kind == TokenKind::number) {
-    number = range.first->number;
-    return Encoding::done;
-  }
   const Evaluation evaluation = evaluate(range, scope, *diagnostics_);
   number = evaluation.value;
   switch (evaluation.state) {

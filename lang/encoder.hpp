@@ -37,10 +37,14 @@ class InstructionEncoder {
  private:
   Encoding encode_operand(const OperandSpec& operand, TokenRange range, const Scope& scope, Pass pass,
                           Command& command);
-  Encoding encode_number(const OperandSpec& operand, double number, TokenRange range, const Scope& scope,
-                         Command& command);
   Encoding check_surplus(const InstructionSpec& instruction, TokenRange range, const Scope& scope, Pass pass);
   Encoding find_value(TokenRange range, const Scope& scope, Pass pass, OperandKind kind, double& number);
+
+  // Each of these reports a failure, which keeps that out of the way of what is encoded.
+  [[gnu::cold]] Encoding report_count(const InstructionSpec& instruction, const Statement& statement,
+                                      const Scope& scope);
+  [[gnu::cold]] Encoding report_not_encodable(Field field, TokenRange range, const Scope& scope);
+  [[gnu::cold]] Encoding report_no_word(OperandKind kind, std::int32_t value, TokenRange range, const Scope& scope);
 
   const ModuleDescription* module_;
   DiagnosticList* diagnostics_;

@@ -51,6 +51,11 @@ class Evaluator {
       : first_(range.first), token_(range.first), last_(range.last), scope_(&scope), diagnostics_(&diagnostics) {}
 
   Evaluation run() {
+    // Most expressions are the name of a label or a constant.
+    if (last_ - first_ == 1 && first_->kind == TokenKind::name) {
+      const double value = named(*first_);
+      return {state_, value};
+    }
     const double value = sum();
     if (state_ == State::value && token_ != last_) {
       fail(DiagnosticKind::unexpected_token, *token_, "expected an operator before " + quoted_text(*token_));

@@ -67,19 +67,36 @@ consteval WordTable make_word_table() {
   return table;
 }
 
+consteval bool all_words_are_packed() {
+  for (std::size_t kind = 0; kind < kind_count; ++kind) {
+    const KeywordSet set = keywords_of(static_cast<OperandKind>(kind));
+    for (std::size_t i = 0; i < set.count; ++i) {
+      if (packed_name(set.words[i].word) == 0) return false;
+    }
+  }
+  return true;
+}
+static_assert(all_words_are_packed());
+
 constexpr WordTable words = make_word_table();
 
 }  // namespace
 
 const InstructionSpec* find_mnemonic(std::string_view mnemonic) {
-  const std::uint64_t packed = packed_name(mnemonic);
+  return find_packed_mnemonic(packed_name(mnemonic));
+}
+
+const InstructionSpec* find_packed_mnemonic(std::uint64_t packed) {
   const std::uint8_t row = mnemonics.rows[slot_of(packed, mnemonics.multiplier)];
   return row != free_slot && mnemonics.packed[row] == packed ? &instructions[row] : nullptr;
 }
 
 int find_word(OperandKind kind, std::string_view word) {
+  return find_packed_word(kind, packed_name(word));
+}
+
+int find_packed_word(OperandKind kind, std::uint64_t packed) {
   const KeywordSet set = keywords_of(kind);
-  const std::uint64_t packed = packed_name(word);
   for (std::size_t i = 0; i < set.count; ++i) {
     if (words.packed[static_cast<std::size_t>(kind)][i] != packed) continue;
     return set.words[i].value == set.excluded ? -1 : set.words[i].value;

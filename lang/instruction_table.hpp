@@ -13,6 +13,8 @@ namespace opentmcl::lang {
 
 /// The row with this mnemonic, whatever module has it, or nullptr. Case does not matter.
 const InstructionSpec* find_mnemonic(std::string_view mnemonic);
+/// The same for a `packed_name`.
+const InstructionSpec* find_packed_mnemonic(std::uint64_t packed);
 
 struct OperandCounts {
   std::uint8_t of_row[instruction_count];
@@ -42,6 +44,8 @@ constexpr bool operands_are_optional(const InstructionSpec& instruction) {
 
 /// The value `word` stands for as an operand of this kind, or -1. Case does not matter.
 int find_word(OperandKind kind, std::string_view word);
+/// The same for a `packed_name`.
+int find_packed_word(OperandKind kind, std::uint64_t packed);
 
 /// The same for constants of the program, in capital letters.
 consteval int value_of_word(OperandKind kind, std::string_view word) {

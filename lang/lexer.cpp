@@ -97,24 +97,29 @@ Lexer::Lexer(std::string_view text, std::size_t offset)
   if (offset == 0 && text.substr(0, byte_order_mark.size()) == byte_order_mark) cursor_ += byte_order_mark.size();
 }
 
-void Lexer::read_line(Tokens& tokens) {
+bool Lexer::read_line(Tokens& tokens) {
   tokens.clear();
+  line_is_valid_ = true;
   // The cursor of the common tokens is a local variable, which the compiler can keep in a register.
   const char* at = cursor_;
   const char* const line = at;
   const char* const end = static_cast<std::size_t>(end_ - at) > maximum_line_length ? at + maximum_line_length : end_;
   while (at < end) {
+    if (class_of(*at) == CharacterClass::blank) {
+      ++at;
+      continue;
+    }
     const char* const start = at;
     switch (class_of(*at)) {
-      case CharacterClass::blank:
-        while (++at != end && class_of(*at) == CharacterClass::blank) {
-        }
+      case CharacterClass::name: {
+        // Packed here, where each character is read anyway, and not again for each of the tables it is looked up in.
+        std::uint64_t packed = 0;
+        do packed = pack(packed, *at);
+        while (++at != end && is_name_or_digit(*at));
+        const bool fits = static_cast<std::size_t>(at - start) <= packed_name_size;
+        add(tokens, TokenKind::name, start, at, 0, fits ? packed : 0);
         continue;
-      case CharacterClass::name:
-        while (++at != end && is_name_or_digit(*at)) {
-        }
-        add(tokens, TokenKind::name, start, at);
-        continue;
+      }
       case CharacterClass::sign:
         add(tokens, character_table.signs[static_cast<unsigned char>(*start)], start, ++at);
         continue;
@@ -137,6 +142,7 @@ void Lexer::read_line(Tokens& tokens) {
         read_other(tokens);
         at = cursor_;
         continue;
+      case CharacterClass::blank:
       case CharacterClass::line_end:
         break;
     }
@@ -145,11 +151,13 @@ void Lexer::read_line(Tokens& tokens) {
   if (at >= end && at != end_ && class_of(*at) != CharacterClass::line_end) {
     tokens.clear();
     at = find_line_end(at, end_);
-    add(tokens, TokenKind::line_too_long, line, at);
+    add_invalid(tokens, TokenKind::line_too_long, line, at);
   }
   add(tokens, TokenKind::end_of_line, at, at);
-  cursor_ = find_line_end(at, end_);
+  const bool is_at_end = at == end_ || class_of(*at) == CharacterClass::line_end;
+  cursor_ = is_at_end ? at : find_line_end(at, end_);
   skip_line_end();
+  return line_is_valid_;
 }
 
 void Lexer::read_other(Tokens& tokens) {
@@ -171,7 +179,7 @@ void Lexer::read_other(Tokens& tokens) {
          (static_cast<unsigned char>(*cursor_) & 0xC0U) == 0x80U) {
     ++cursor_;
   }
-  add(tokens, TokenKind::unexpected_character, start, cursor_);
+  add_invalid(tokens, TokenKind::unexpected_character, start, cursor_);
 }
 
 void Lexer::read_directive(Tokens& tokens) {
@@ -190,7 +198,8 @@ void Lexer::read_fraction(Tokens& tokens) {
   if (error == std::errc::invalid_argument) return finish_malformed_number(tokens, start);
   cursor_ = after;
   if (goes_on_as_number()) return finish_malformed_number(tokens, start);
-  add(tokens, error == std::errc() ? TokenKind::number : TokenKind::number_too_large, start, cursor_, number);
+  if (error != std::errc()) return add_invalid(tokens, TokenKind::number_too_large, start, cursor_);
+  add(tokens, TokenKind::number, start, cursor_, number);
 }
 
 void Lexer::read_pattern(Tokens& tokens, unsigned bits_per_digit) {
@@ -204,14 +213,14 @@ void Lexer::read_pattern(Tokens& tokens, unsigned bits_per_digit) {
     pattern &= UINT32_MAX;
   }
   if (cursor_ == start + 1 || goes_on_as_number()) return finish_malformed_number(tokens, start);
-  add(tokens, too_large ? TokenKind::number_too_large : TokenKind::number, start, cursor_,
-      static_cast<std::int32_t>(static_cast<std::uint32_t>(pattern)));
+  if (too_large) return add_invalid(tokens, TokenKind::number_too_large, start, cursor_);
+  add(tokens, TokenKind::number, start, cursor_, static_cast<std::int32_t>(static_cast<std::uint32_t>(pattern)));
 }
 
 void Lexer::finish_malformed_number(Tokens& tokens, const char* start) {
   if (cursor_ == start) ++cursor_;
   while (goes_on_as_number()) ++cursor_;
-  add(tokens, TokenKind::malformed_number, start, cursor_);
+  add_invalid(tokens, TokenKind::malformed_number, start, cursor_);
 }
 
 bool Lexer::goes_on_as_number() const {
@@ -225,9 +234,15 @@ void Lexer::skip_line_end() {
   if (carriage_return && cursor_ != end_ && *cursor_ == '\n') ++cursor_;
 }
 
-void Lexer::add(Tokens& tokens, TokenKind kind, const char* start, const char* after, double number) const {
+void Lexer::add(Tokens& tokens, TokenKind kind, const char* start, const char* after, double number,
+                std::uint64_t packed) const {
   tokens.push_back(
-      {kind, static_cast<std::uint32_t>(start - begin_), static_cast<std::uint32_t>(after - start), number});
+      {kind, static_cast<std::uint32_t>(start - begin_), static_cast<std::uint32_t>(after - start), number, packed});
+}
+
+void Lexer::add_invalid(Tokens& tokens, TokenKind kind, const char* start, const char* after) {
+  line_is_valid_ = false;
+  add(tokens, kind, start, after);
 }
 
 }  // namespace opentmcl::lang

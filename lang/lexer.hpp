@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string_view>
 
 #include "lang/token.hpp"
@@ -24,8 +25,8 @@ class Lexer {
   bool at_end() const { return cursor_ == end_; }
 
   /// Replaces `tokens` by those of the next line. The last one is always `end_of_line`. A line that is too long is one
-  /// token.
-  void read_line(Tokens& tokens);
+  /// token. Returns false if one of them `is_invalid`.
+  bool read_line(Tokens& tokens);
 
  private:
   // Each of these reads one token that begins at the cursor.
@@ -37,11 +38,14 @@ class Lexer {
   void finish_malformed_number(Tokens& tokens, const char* start);
   bool goes_on_as_number() const;
   void skip_line_end();
-  void add(Tokens& tokens, TokenKind kind, const char* start, const char* after, double number = 0) const;
+  void add(Tokens& tokens, TokenKind kind, const char* start, const char* after, double number = 0,
+           std::uint64_t packed = 0) const;
+  void add_invalid(Tokens& tokens, TokenKind kind, const char* start, const char* after);
 
   const char* begin_;
   const char* cursor_;
   const char* end_;
+  bool line_is_valid_ = true;
 };
 
 }  // namespace opentmcl::lang

@@ -15,7 +15,7 @@ namespace {
 
 std::optional<std::int32_t> value_of(TokenRange range, OperandKind kind, const Scope& scope) {
   if (range.size() == 1 && range.first->kind == TokenKind::name && takes_words(kind)) {
-    const int word = find_word(kind, range.first->text(scope.text));
+    const int word = find_packed_word(kind, range.first->packed);
     if (word >= 0) return word;
   }
   DiagnosticList unheard;

@@ -11,11 +11,6 @@ bool is_wordy(TokenKind kind) {
   return kind == TokenKind::name || kind == TokenKind::number;
 }
 
-bool is_invalid(TokenKind kind) {
-  return kind == TokenKind::unexpected_character || kind == TokenKind::malformed_number ||
-         kind == TokenKind::number_too_large || kind == TokenKind::line_too_long;
-}
-
 TokenRole role_of_sign(TokenKind kind) {
   if (is_invalid(kind)) return TokenRole::invalid;
   if (kind == TokenKind::number) return TokenRole::number;

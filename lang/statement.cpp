@@ -1,12 +1,9 @@
 #include "lang/statement.hpp"
 
+#include <algorithm>
+
 namespace opentmcl::lang {
 namespace {
-
-bool is_invalid(const Token& token) {
-  return token.kind == TokenKind::unexpected_character || token.kind == TokenKind::malformed_number ||
-         token.kind == TokenKind::number_too_large || token.kind == TokenKind::line_too_long;
-}
 
 void split_at_commas(const Token* first, const Token* last, std::vector<TokenRange>& operands) {
   if (first == last) return;
@@ -23,7 +20,7 @@ void split_at_commas(const Token* first, const Token* last, std::vector<TokenRan
 
 void read_statement(Lexer& lexer, Statement& statement) {
   statement.operands.clear();
-  lexer.read_line(statement.tokens);
+  const bool is_valid = lexer.read_line(statement.tokens);
   const Token* token = statement.tokens.data();
   const Token* const last = token + statement.tokens.size() - 1;
 
@@ -31,13 +28,10 @@ void read_statement(Lexer& lexer, Statement& statement) {
   statement.label_count = static_cast<std::size_t>(token - statement.tokens.data()) / 2;
   statement.name = *token;
 
-  for (const Token* invalid = token; invalid != last; ++invalid) {
-    if (!is_invalid(*invalid)) continue;
+  if (!is_valid) {
     statement.kind = StatementKind::invalid_token;
-    statement.name = *invalid;
-    return;
-  }
-  if (token == last) {
+    statement.name = *std::find_if(token, last, [](const Token& each) { return is_invalid(each.kind); });
+  } else if (token == last) {
     statement.kind = StatementKind::empty;
   } else if (token->kind == TokenKind::directive && statement.label_count == 0) {
     statement.kind = StatementKind::directive;
