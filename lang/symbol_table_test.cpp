@@ -50,6 +50,20 @@ RC_GTEST_PROP(SymbolTable, HoldsWhatAMapHolds, ()) {
   }
 }
 
+RC_GTEST_PROP(Names, DifferByAnyCharacterAndNotByCase, ()) {
+  const auto length = *rc::gen::inRange<std::size_t>(1, 40);
+  const auto name = *rc::gen::container<std::string>(length, rc::gen::elementOf(std::string("azAZ_059")));
+  const auto at = *rc::gen::inRange<std::size_t>(0, length);
+  std::string other_case = name;
+  if (starts_name(name[at]) && name[at] != '_') other_case[at] = static_cast<char>(name[at] ^ 0x20);
+  std::string other_name = name;
+  other_name[at] = to_upper(name[at]) == 'M' ? 'N' : 'M';
+  RC_ASSERT(is_same_name(name, other_case));
+  RC_ASSERT(hash_of_name(name) == hash_of_name(other_case));
+  RC_ASSERT(!is_same_name(name, other_name));
+  RC_ASSERT(hash_of_name(name) != hash_of_name(other_name));
+}
+
 TEST(SymbolTable, GrowsWithoutLosingNames) {
   std::vector<std::string> names;
   names.reserve(5000);
