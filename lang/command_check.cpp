@@ -4,37 +4,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <string_view>
 
 #include "firmware/spec/axis_parameters.hpp"
 #include "firmware/spec/global_parameters.hpp"
 #include "firmware/spec/interrupts.hpp"
 #include "lang/instruction_table.hpp"
+#include "lang/operand_meaning.hpp"
+#include "lang/table_rows.hpp"
 
 namespace opentmcl::lang {
 namespace {
-
-/// From the number in a command to the row of a table; `no_row` for numbers that have none.
-constexpr std::uint8_t no_row = 255;
-
-struct RowIndex {
-  std::uint8_t rows[256];
-};
-
-template <typename Row, std::size_t count>
-consteval RowIndex make_row_index(const Row (&table)[count]) {
-  static_assert(count < no_row);
-  RowIndex index{};
-  for (std::uint8_t& row : index.rows) row = no_row;
-  for (std::size_t i = 0; i < count; ++i) {
-    index.rows[static_cast<std::uint8_t>(table[i].number)] = static_cast<std::uint8_t>(i);
-  }
-  return index;
-}
-
-constexpr RowIndex axis_parameter_rows = make_row_index(axis_parameters);
-constexpr RowIndex global_parameter_rows = make_row_index(global_parameters);
-constexpr RowIndex interrupt_rows = make_row_index(interrupts);
 
 constexpr int move_to_coordinate = value_of_word(OperandKind::mvp_mode, "COORD");
 constexpr int wait_for_ticks = value_of_word(OperandKind::wait_event, "TICKS");
@@ -60,10 +39,6 @@ Access wanted_access(Opcode opcode) {
     default:
       return Access::none;
   }
-}
-
-std::string range_text(std::int32_t minimum, std::int32_t maximum) {
-  return std::to_string(minimum) + "..." + std::to_string(maximum);
 }
 
 /// What a user who comes from modules that take physical units has to know.
@@ -143,12 +118,9 @@ class CommandCheck {
   }
 
   void check_axis_parameter(std::size_t index) {
-    const std::uint8_t row = axis_parameter_rows.rows[command_->type];
-    if (row == no_row || axis_parameters[row].in(module_->id).access == Access::none) {
-      return missing(index, "axis parameter " + std::to_string(command_->type));
-    }
-    const AxisParameterSpec& parameter = axis_parameters[row];
-    check_parameter(index, parameter, "axis parameter");
+    const AxisParameterSpec* const parameter = find_axis_parameter(command_->type, *module_);
+    if (parameter == nullptr) return missing(index, "axis parameter " + std::to_string(command_->type));
+    check_parameter(index, *parameter, "axis parameter");
   }
 
   void check_global_parameter(std::size_t index) {
@@ -165,25 +137,22 @@ class CommandCheck {
   }
 
   void check_module_setting(std::size_t index) {
-    const std::uint8_t row = global_parameter_rows.rows[command_->type];
-    if (row == no_row || global_parameters[row].in(module_->id).access == Access::none) {
+    const GlobalParameterSpec* const setting = find_module_setting(command_->type, *module_);
+    if (setting == nullptr) {
       return missing(index, "global parameter " + std::to_string(command_->type) + " in bank 0");
     }
-    const GlobalParameterSpec& parameter = global_parameters[row];
-    check_parameter(index, parameter, "global parameter");
+    check_parameter(index, *setting, "global parameter");
   }
 
   void check_interrupt_setting(std::size_t index) {
-    const std::uint8_t row = interrupt_rows.rows[command_->type];
-    const bool exists = row != no_row && contains(interrupts[row].modules, module_->id) &&
-                        interrupts[row].setting != InterruptSetting::none;
+    const InterruptSpec* const interrupt = find_interrupt(command_->type, *module_);
+    const bool exists = interrupt != nullptr && interrupt->setting != InterruptSetting::none;
     if (!exists) missing(index, "global parameter " + std::to_string(command_->type) + " in bank 3");
   }
 
   void check_interrupt(std::size_t index) {
-    const std::uint8_t row = interrupt_rows.rows[command_->type];
-    const bool exists = row != no_row && contains(interrupts[row].modules, module_->id);
-    if (!exists) missing(index, "interrupt " + std::to_string(command_->type));
+    if (find_interrupt(command_->type, *module_) != nullptr) return;
+    missing(index, "interrupt " + std::to_string(command_->type));
   }
 
   [[gnu::cold]] void missing(std::size_t index, const std::string& what) {

@@ -7,6 +7,7 @@
 
 #include "lang/command_check.hpp"
 #include "lang/instruction_table.hpp"
+#include "lang/operand_kind.hpp"
 #include "lang/operand_meaning.hpp"
 #include "lang/table_rows.hpp"
 
@@ -120,62 +121,7 @@ std::optional<Explanation> explain_number(const OperandSpec& operand, const Comm
 }  // namespace
 
 std::string name_of_operand_kind(OperandKind kind) {
-  switch (kind) {
-    case OperandKind::none:
-      return "";
-    case OperandKind::motor:
-    case OperandKind::motor_group:
-    case OperandKind::motor_or_all:
-      return "motor";
-    case OperandKind::bank:
-    case OperandKind::io_bank:
-      return "bank";
-    case OperandKind::axis_parameter:
-      return "axis parameter";
-    case OperandKind::global_parameter:
-      return "global parameter";
-    case OperandKind::port:
-      return "port";
-    case OperandKind::coordinate:
-      return "coordinate";
-    case OperandKind::velocity:
-      return "velocity";
-    case OperandKind::position:
-      return "position";
-    case OperandKind::value:
-      return "value";
-    case OperandKind::ticks:
-      return "ticks";
-    case OperandKind::address:
-      return "label";
-    case OperandKind::interrupt:
-      return "interrupt";
-    case OperandKind::variable:
-      return "user variable";
-    case OperandKind::number:
-      return "number";
-    case OperandKind::mvp_mode:
-      return "mode";
-    case OperandKind::rfs_action:
-      return "action";
-    case OperandKind::calc_operation:
-    case OperandKind::calcx_operation:
-    case OperandKind::variable_operation:
-    case OperandKind::variable_value_operation:
-      return "operation";
-    case OperandKind::condition:
-      return "condition";
-    case OperandKind::wait_event:
-      return "event";
-    case OperandKind::error_flag:
-      return "error flag";
-  }
-  return "";
-}
-
-std::string range_text(std::int32_t minimum, std::int32_t maximum) {
-  if (minimum == maximum) return std::to_string(minimum);
-  return std::to_string(minimum) + "..." + std::to_string(maximum);
+  return names_of(kind).words;
 }
 
 std::string describe_operand(const OperandSpec& operand, const ModuleDescription& module) {

@@ -29,9 +29,6 @@ std::string name_of_operand_kind(OperandKind kind);
 /// An operand, and what it may be: "velocity: -2047...2047", "mvp mode: ABS, REL, COORD".
 std::string describe_operand(const OperandSpec& operand, const ModuleDescription& module);
 
-/// "1...2047", or the number alone where there is but one
-std::string range_text(std::int32_t minimum, std::int32_t maximum);
-
 Explanation explain(const InstructionSpec& instruction, const ModuleDescription& module);
 Explanation explain(const FunctionSpec& function);
 Explanation explain(const Keyword& word, OperandKind kind);

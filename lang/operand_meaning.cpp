@@ -100,4 +100,9 @@ std::string_view name_of_operand(const OperandSpec& operand, const Command& comm
   return {};
 }
 
+std::string range_text(std::int32_t minimum, std::int32_t maximum) {
+  if (minimum == maximum) return std::to_string(minimum);
+  return std::to_string(minimum) + "..." + std::to_string(maximum);
+}
+
 }  // namespace opentmcl::lang

@@ -1,6 +1,8 @@
 // What the number of an operand stands for: for comments, hovers and hints beside it.
 #pragma once
 
+#include <cstdint>
+#include <string>
 #include <string_view>
 
 #include "firmware/spec/instructions.hpp"
@@ -17,5 +19,8 @@ Unit unit_of_operand(const OperandSpec& operand, const Command& command, const M
 /// The name the tables have for what an operand chooses, an axis or global parameter, a port or an interrupt: "maximum
 /// positioning speed". Empty for all other operands, and for what the module lacks.
 std::string_view name_of_operand(const OperandSpec& operand, const Command& command, const ModuleDescription& module);
+
+/// "1...2047", or the number alone where there is but one
+std::string range_text(std::int32_t minimum, std::int32_t maximum);
 
 }  // namespace opentmcl::lang

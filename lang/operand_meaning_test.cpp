@@ -68,5 +68,10 @@ TEST(OperandMeaning, IsNoneForWhatTheModuleLacks) {
   EXPECT_EQ("input change 4", meaning_of("DI 43", tmcm1110));
 }
 
+TEST(OperandRange, IsWrittenAsInTheManual) {
+  EXPECT_EQ("-2047...2047", range_text(-2047, 2047));
+  EXPECT_EQ("0", range_text(0, 0));
+}
+
 }  // namespace
 }  // namespace opentmcl::lang

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <iterator>
+#include <vector>
+
+#include "scenario/problem.hpp"
 
 namespace opentmcl::server {
 
@@ -16,9 +19,19 @@ const PortKindName* find_port_kind(std::string_view name) {
   return found == std::end(port_kinds) ? nullptr : found;
 }
 
+std::string port_kind_choice(const ModuleDescription& module) {
+  std::vector<std::string_view> names;
+  for (const PortKindName& row : port_kinds) {
+    if (contains(row.modules, module.id)) names.push_back(row.name);
+  }
+  return scenario::listed(names);
+}
+
 std::optional<std::string> absence(hal::PortKind kind, const ModuleDescription& module) {
-  if (kind != hal::PortKind::rs232 || module.id == ModuleId::pd1161) return std::nullopt;
-  return "a " + std::string(module.name) + " has no RS232: expected usb or rs485";
+  const PortKindName& names = names_of(kind);
+  if (contains(names.modules, module.id)) return std::nullopt;
+  return "a " + std::string(module.name) + " has no " + std::string(names.title) + ": expected " +
+         port_kind_choice(module);
 }
 
 }  // namespace opentmcl::server

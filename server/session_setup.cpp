@@ -137,7 +137,9 @@ Result<SessionSetup> session_setup_from(const json& source) {
     for (const json& port : source.at("ports")) {
       const auto name = port.at("kind").get<std::string>();
       const PortKindName* const kind = find_port_kind(name);
-      if (kind == nullptr) return bad("it has a port of kind \"" + name + "\": expected usb, rs232 or rs485");
+      if (kind == nullptr) {
+        return bad("it has a port of kind \"" + name + "\": expected " + port_kind_choice(*setup.module));
+      }
       const auto wire = port.value("wire", std::int64_t{0});
       if (wire < 0 || wire > PacedPort::fastest_rate) return bad("it has a line of " + std::to_string(wire) + " bit/s");
       setup.ports.push_back({kind->kind, static_cast<std::uint32_t>(wire)});

@@ -44,6 +44,11 @@ Result<std::string> read_source(const std::string& path) {
   return Error{ErrorKind::bad_file, fmt::format("{} is larger than 1 GiB", path), {}};
 }
 
+Result<void> replace_file(const std::string& path, const std::string& content) {
+  Result<FileReplacement> replacement = FileReplacement::write(path, content);
+  return replacement ? replacement->take_place() : Result<void>(replacement.error());
+}
+
 /// One file after the other, whatever is wrong with those before.
 class FormatRun {
  public:

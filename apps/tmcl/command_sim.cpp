@@ -24,6 +24,7 @@
 #include "server/kept_eeprom.hpp"
 #include "server/live_simulation.hpp"
 #include "server/module_setup.hpp"
+#include "server/port_kinds.hpp"
 #include "server/session.hpp"
 #include "server/signal_recording.hpp"
 
@@ -307,7 +308,8 @@ void add_sim(CLI::App& app, Context& context) {
                   SimEndpoints::default_tcp_port));
   command
       ->add_option("--port-kind", options->endpoints.port_kind,
-                   "what the serial port stands for: usb, rs485, or rs232 (pd1161)")
+                   fmt::format("what the serial port stands for: {}; of a {}: {}", server::port_kind_choice(tmcm1110),
+                               pd1161.argument, server::port_kind_choice(pd1161)))
       ->capture_default_str();
   command
       ->add_option("--wire", options->wire,

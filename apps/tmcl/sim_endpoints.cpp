@@ -84,7 +84,9 @@ Result<CanUdpEndpoint> join(boost::asio::io_context& events, const std::string& 
 Result<hal::PortKind> parse_port_kind(const std::string& wanted, const ModuleDescription& module) {
   const server::PortKindName* const found = server::find_port_kind(wanted);
   if (found == nullptr) {
-    return Error{ErrorKind::usage, fmt::format("\"{}\" is no kind of port: expected usb, rs485 or rs232", wanted), {}};
+    return Error{ErrorKind::usage,
+                 fmt::format("\"{}\" is no kind of port: expected {}", wanted, server::port_kind_choice(module)),
+                 {}};
   }
   if (const auto objection = server::absence(found->kind, module)) return Error{ErrorKind::usage, *objection, {}};
   return found->kind;

@@ -26,7 +26,7 @@ class SimEndpoints {
 
   struct Options {
     std::string link;               ///< empty: the default place, or one with a number where that is taken
-    std::string port_kind = "usb";  ///< what the pseudo terminal stands for: usb, rs485 or rs232
+    std::string port_kind = "usb";  ///< what the pseudo terminal stands for, as server/port_kinds.hpp calls it
     std::string tcp;         ///< PORT, ADDRESS:PORT, none; empty: default_tcp_port, or a free one where that is taken
     std::string slcan_link;  ///< of a second pseudo terminal, an SLCAN adapter; empty: none
     std::string can_udp;     ///< GROUP:PORT of a UDP multicast group; empty: none

@@ -4,6 +4,7 @@
 
 #include "apps/tmcl/spec_words.hpp"
 #include "lang/expression.hpp"
+#include "lang/operand_kind.hpp"
 
 namespace opentmcl::app {
 
@@ -38,7 +39,7 @@ Json json_of(const OperandSpec& operand) {
     if (keyword.value == keywords.excluded) continue;
     words.push_back({{"word", keyword.word}, {"value", keyword.value}, {"description", keyword.description}});
   }
-  Json json{{"kind", name_of(operand.kind)},
+  Json json{{"kind", lang::names_of(operand.kind).identifier},
             {"field", name_of(operand.field)},
             {"minimum", operand.minimum},
             {"maximum", operand.maximum}};

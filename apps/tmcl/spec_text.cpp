@@ -4,6 +4,7 @@
 
 #include "apps/tmcl/spec_json.hpp"
 #include "apps/tmcl/spec_words.hpp"
+#include "lang/operand_kind.hpp"
 
 namespace opentmcl::app {
 
@@ -26,7 +27,7 @@ std::string form_of(const InstructionSpec& instruction) {
     form += separator;
     separator = ", ";
     const KeywordSet keywords = keywords_of(operand.kind);
-    if (keywords.count == 0) form += name_of(operand.kind);
+    if (keywords.count == 0) form += lang::names_of(operand.kind).identifier;
     const char* bar = "";
     for (std::size_t i = 0; i < keywords.count; ++i) {
       if (keywords.words[i].value == keywords.excluded) continue;

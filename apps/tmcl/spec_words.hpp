@@ -17,7 +17,6 @@ namespace opentmcl::app {
 /// The letters of the manuals: "RWE".
 std::string letters_of(Access access);
 
-const char* name_of(OperandKind kind);
 const char* name_of(Field field);
 const char* name_of(Where where);
 const char* name_of(InterruptSetting setting);
