@@ -42,10 +42,15 @@ bool protects_against_reading(std::int32_t code_protection) {
 }
 
 bool ends_program(const Command& instruction) {
-  return instruction.opcode == 0 || is_control_command(instruction.opcode);
+  return instruction.opcode == end_mark.opcode || is_control_command(instruction.opcode);
 }
 
 }  // namespace
+
+std::vector<Command> with_end_mark(std::vector<Command> program, std::size_t capacity) {
+  if (program.size() < capacity) program.push_back(end_mark);
+  return program;
+}
 
 Result<void> download(Client& client, const std::vector<Command>& program, std::uint16_t address,
                       const Progress& progress) {

@@ -55,6 +55,13 @@ TEST_F(ProgramTransfer, StopsTheProgramAndSendsTheInstructionsInDownloadMode) {
   EXPECT_EQ((std::vector<std::size_t>{1, 2}), progress);
 }
 
+TEST(EndMark, StandsBehindAProgramThatLeavesRoomForIt) {
+  std::vector<Command> marked = program;
+  marked.push_back({0, 0, 0, 0});
+  EXPECT_EQ(marked, with_end_mark(program, program.size() + 1));
+  EXPECT_EQ(program, with_end_mark(program, program.size()));
+}
+
 TEST_F(ProgramTransfer, LeavesDownloadModeWhenAnInstructionIsRefused) {
   transport.answer(reply(Opcode::stop_application));
   transport.answer(reply(Opcode::enter_download_mode));

@@ -48,6 +48,11 @@ Result<MemoryComparison> Engine::compare(const client::Progress& progress) {
     if (*found != program_.commands()[i]) comparison.differing.push_back(address);
     if (!progress(i + 1, program_.size())) return Error{ErrorKind::interrupted, "interrupted", {}};
   }
+  if (program_.size() < target_.module().program_capacity) {
+    const Result<Command> behind = client::read_instruction(client, static_cast<std::uint16_t>(program_.size()));
+    if (!behind) return behind.error();
+    comparison.end_is_marked = *behind == client::end_mark;
+  }
   return comparison;
 }
 
@@ -58,6 +63,7 @@ Result<std::size_t> Engine::download(const MemoryComparison& comparison, const c
                  "before `tmcl set --global 0 81 0`, which erases a program that is protected against reading, too",
                  {}};
   }
+  const std::vector<Command> image = client::with_end_mark(program_.commands(), target_.module().program_capacity);
   struct Range {
     std::size_t begin;
     std::size_t end;
@@ -65,22 +71,24 @@ Result<std::size_t> Engine::download(const MemoryComparison& comparison, const c
   // A range costs two commands and a page or two of the EEPROM: a few instructions more cost less.
   constexpr std::size_t worth_a_range = 8;
   std::vector<Range> ranges;
-  if (!comparison.readable) {
-    ranges.push_back({0, program_.size()});
-  } else {
-    for (const std::uint16_t address : comparison.differing) {
-      if (!ranges.empty() && address < ranges.back().end + worth_a_range) {
-        ranges.back().end = address + 1U;
-      } else {
-        ranges.push_back({address, address + 1U});
-      }
+  const auto send = [&ranges](std::size_t address) {
+    if (!ranges.empty() && address < ranges.back().end + worth_a_range) {
+      ranges.back().end = address + 1;
+    } else {
+      ranges.push_back({address, address + 1});
     }
+  };
+  if (!comparison.readable) {
+    ranges.push_back({0, image.size()});
+  } else {
+    for (const std::uint16_t address : comparison.differing) send(address);
+    if (!comparison.end_is_marked) send(program_.size());
   }
   std::size_t total = 0;
   for (const Range& range : ranges) total += range.end - range.begin;
   std::size_t sent = 0;
   for (const Range& range : ranges) {
-    const auto begin = program_.commands().begin();
+    const auto begin = image.begin();
     const std::vector<Command> part(begin + static_cast<std::ptrdiff_t>(range.begin),
                                     begin + static_cast<std::ptrdiff_t>(range.end));
     Result<void> loaded = client::download(target_.client(), part, static_cast<std::uint16_t>(range.begin),
@@ -89,7 +97,8 @@ Result<std::size_t> Engine::download(const MemoryComparison& comparison, const c
     sent += part.size();
   }
   beyond_.clear();
-  return sent;
+  const bool sent_mark = !ranges.empty() && ranges.back().end > program_.size();
+  return sent - (sent_mark ? 1 : 0);
 }
 
 Result<Stop> Engine::restart() {

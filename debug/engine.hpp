@@ -71,8 +71,11 @@ struct MemoryComparison {
   bool readable = true;                  ///< false: code protection (global parameter 81) hides it
   bool writable = true;                  ///< false: code protection forbids a download
   std::vector<std::uint16_t> differing;  ///< addresses, rising; without meaning if not readable
+  bool end_is_marked = true;             ///< as client::with_end_mark() does; without meaning if not readable
 
   bool is_same() const { return readable && differing.empty(); }
+  /// A download would change nothing.
+  bool is_loaded() const { return is_same() && end_is_marked; }
 };
 
 class Engine final : private ValueSource {
@@ -95,7 +98,8 @@ class Engine final : private ValueSource {
 
   /// Reads and compares. Errors: those of client::Client; interrupted.
   client::Result<MemoryComparison> compare(const client::Progress& progress);
-  /// Stops what runs and sends what differs, all of it if the memory cannot be read. @return instructions sent
+  /// Stops what runs and sends what differs, all of it if the memory cannot be read. @return instructions sent, not
+  /// counting the end mark.
   /// Errors: those of client::download; refused (code protection), with what to do.
   client::Result<std::size_t> download(const MemoryComparison& comparison, const client::Progress& progress);
   /// The program stands at its begin; hits are counted anew.

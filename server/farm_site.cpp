@@ -162,7 +162,7 @@ Result<void> FarmSite::set_up_module(std::size_t index) {
   if (wanted.can) settings.can_bit_rate = description_.can_buses[*wanted.can].bit_rate;
   if (Result<void> done = set_up(simulated, *built.module, built.setup_line, settings); !done) return done;
   if (wanted.program.empty()) return {};
-  return load_program(simulated, built.setup_line, programs_(wanted), wanted.starts_program);
+  return load_program(simulated, built.setup_line, *wanted.kind, programs_(wanted), wanted.starts_program);
 }
 
 void FarmSite::build_farm(Farm::Options options) {

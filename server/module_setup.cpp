@@ -54,12 +54,14 @@ Result<bool> change(Client& client, GlobalParameter parameter, std::int32_t valu
 
 }  // namespace
 
-Result<void> load_program(Simulated& simulated, MemoryLine& line, const std::vector<Command>& commands, bool start) {
+Result<void> load_program(Simulated& simulated, MemoryLine& line, const ModuleDescription& module,
+                          const std::vector<Command>& commands, bool start) {
   SimulatedTransport transport(simulated, line, module_name);
   if (Result<void> binary = speak_binary(simulated, line, transport); !binary) return binary;
   Client client(transport);
   const auto keep_going = [](std::size_t, std::size_t) { return true; };
-  if (Result<void> loaded = client::download(client, commands, 0, keep_going); !loaded) return loaded;
+  const std::vector<Command> image = client::with_end_mark(commands, module.program_capacity);
+  if (Result<void> loaded = client::download(client, image, 0, keep_going); !loaded) return loaded;
   return start ? client.start_program() : Result<void>();
 }
 

@@ -7,6 +7,7 @@
 
 #include "boards/twin/virtual_module.hpp"
 #include "client/error.hpp"
+#include "firmware/spec/modules.hpp"
 #include "firmware/wire/datagram.hpp"
 #include "server/memory_line.hpp"
 
@@ -15,8 +16,9 @@ namespace opentmcl::server {
 /// Loads a program from address 0 on and starts it if wanted.
 /// @param simulated the module, or the line that it is on
 /// @param line at a port of the module of the kind usb
-client::Result<void> load_program(Simulated& simulated, MemoryLine& line, const std::vector<Command>& commands,
-                                  bool start);
+/// @param module the kind it is of
+client::Result<void> load_program(Simulated& simulated, MemoryLine& line, const ModuleDescription& module,
+                                  const std::vector<Command>& commands, bool start);
 
 /// What a module must be set to before it can share a bus.
 struct BusSettings {

@@ -116,7 +116,7 @@ class Bench {
 
   void start() {
     session = std::move(*Session::start(setup(), doors(), options_));
-    ASSERT_TRUE(load_program(session->module(), line_, to_and_fro(), true));
+    ASSERT_TRUE(load_program(session->module(), line_, pd1161, to_and_fro(), true));
     session->begin(session->scenario().duration);
   }
   void resume(const std::string& path) {
@@ -226,7 +226,7 @@ TEST_F(SessionScenarioTest, GoesBackInPlaceAndRecordsTheSameOnceMore) {
   auto started = Session::start(setup(), {{&host.port(), &line.port()}, nullptr}, options);
   ASSERT_TRUE(started);
   const std::unique_ptr<Session>& session = *started;
-  ASSERT_TRUE(load_program(session->module(), line, to_and_fro(), true));
+  ASSERT_TRUE(load_program(session->module(), line, pd1161, to_and_fro(), true));
   session->begin(session->scenario().duration);
   session->module().advance_to(700'000);
   ASSERT_TRUE(session->save(path));

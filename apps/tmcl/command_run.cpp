@@ -121,13 +121,14 @@ Result<void> run_run(const Context& context, const RunOptions& options) {
   const Result<lang::AssemblyResult> assembled = assemble_file(options.file, assembler);
   if (!assembled) return assembled.error();
   const std::vector<Command>& commands = assembled->program->commands;
+  const std::vector<Command> image = client::with_end_mark(commands, (*module)->program_capacity);
 
   const Interruption interruption;
   StatusLine line;
-  if (Result<void> loaded = client::download(client, commands, 0, progress(line, interruption, "loaded")); !loaded) {
+  if (Result<void> loaded = client::download(client, image, 0, progress(line, interruption, "loaded")); !loaded) {
     return loaded;
   }
-  if (Result<void> verified = client::verify(client, commands, 0, progress(line, interruption, "verified"));
+  if (Result<void> verified = client::verify(client, image, 0, progress(line, interruption, "verified"));
       !verified) {
     return verified;
   }

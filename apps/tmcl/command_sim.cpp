@@ -244,8 +244,9 @@ Result<void> simulate(const Context& context, const SimOptions& options, SimPlan
   if (!opened) return opened.error();
   Session& session = **opened;
   if (!plan.program.empty()) {
-    if (Result<void> loaded = server::load_program(session.module(), line, plan.program, !options.no_start); !loaded)
-      return loaded;
+    Result<void> loaded =
+        server::load_program(session.module(), line, *setup.module, plan.program, !options.no_start);
+    if (!loaded) return loaded;
   }
 
   std::vector<const server::RequestQueue*> requests = endpoints->requests();

@@ -223,11 +223,11 @@ Result<std::string> load_program(debug::Engine& engine, Loading loading, const c
     return attach(engine);
   }
   std::string done = "the module has this program already";
-  if (!comparison->is_same()) {
+  if (!comparison->is_loaded()) {
     if (!comparison->readable && !comparison->writable) return Error{ErrorKind::refused, hidden_program, {}};
     const Result<std::size_t> sent = engine.download(*comparison, progress);
     if (!sent) return sent.error();
-    done = fmt::format("sent {} of {} instructions", *sent, engine.program().size());
+    if (*sent > 0) done = fmt::format("sent {} of {} instructions", *sent, engine.program().size());
     if (comparison->readable) {
       comparison = engine.compare(progress);
       if (!comparison) return comparison.error();

@@ -71,6 +71,26 @@ TEST(Loading, SeveralPiecesArriveWhole) {
   EXPECT_TRUE(value_of(engine.compare(every_progress)).is_same());
 }
 
+TEST(Loading, LeavesNothingOfALongerProgramBehindTheEnd) {
+  LoadedBench bench(counting);
+  Engine shorter(bench.target, program_of("SGP 1, 2, 3\n"));
+  // The first instruction of the longer program, and a STOP.
+  EXPECT_EQ(1U, value_of(shorter.download(value_of(shorter.compare(every_progress)), every_progress)));
+  EXPECT_EQ(shorter.program().commands(),
+            value_of(client::read_program(bench.client, pd1161.program_capacity, every_progress)));
+  EXPECT_TRUE(value_of(shorter.compare(every_progress)).is_loaded());
+}
+
+TEST(Loading, AMissingEndMarkIsNoOtherProgram) {
+  Bench bench(counting);
+  expect_done(client::download(bench.client, bench.engine.program().commands(), 0, every_progress));
+  const MemoryComparison comparison = value_of(bench.engine.compare(every_progress));
+  EXPECT_TRUE(comparison.is_same());
+  EXPECT_FALSE(comparison.is_loaded());
+  EXPECT_EQ(0U, value_of(bench.engine.download(comparison, every_progress)));
+  EXPECT_TRUE(value_of(bench.engine.compare(every_progress)).is_loaded());
+}
+
 TEST(Loading, CodeProtectionIsNoticed) {
   LoadedBench bench(counting);
   constexpr auto code_protection = static_cast<std::uint8_t>(GlobalParameter::code_protection);

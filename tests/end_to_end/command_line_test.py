@@ -138,6 +138,9 @@ class AssemblerCommands(CommandLineTest):
         eventually(lambda: self.tmcl(*port, "dis").returncode == 0, "the program is loaded")
         self.assertEqual(self.expect(0, "dis", self.path("p.bin")).stdout, self.expect(0, *port, "dis").stdout)
         self.assertEqual([3, []], [self.json(*port, "dis")[key] for key in ("instructions", "problems")])
+        # Nothing is left of a longer program behind a shorter one.
+        self.expect(0, *port, "run", self.write("short.tmc", "MVP ABS, 0, 2000\n"))
+        self.assertEqual(2, self.json(*port, "dis")["instructions"])
         self.expect(0, *port, "set", "--global", "0", "81", "1")
         self.assertIn("protected against reading", self.expect(1, *port, "dis").stderr)
         self.assertIn("no program", self.expect(1, "dis").stderr)
