@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "apps/tmcl/assembler_choice.hpp"
 #include "apps/tmcl/assembly_json.hpp"
 #include "apps/tmcl/commands.hpp"
 #include "apps/tmcl/context.hpp"
@@ -15,7 +16,6 @@
 #include "lang/c_array.hpp"
 #include "lang/listing.hpp"
 #include "lang/program_file.hpp"
-#include "lang/suggestion.hpp"
 #include "lang/symbol_file.hpp"
 
 namespace opentmcl::app {
@@ -35,10 +35,8 @@ struct AsmOptions {
   std::string symbols;
   std::string source_map;
   std::string c_array;
-  std::vector<std::string> include_folders;
-  std::vector<std::string> switched_off;
+  AssemblerChoice assembler;
   bool no_append_stop = false;
-  bool warnings_as_errors = false;
   bool list_warnings = false;
 };
 
@@ -50,25 +48,6 @@ void list_warnings(const Context& context) {
   for (const lang::DiagnosticKindSpec& row : lang::diagnostic_kinds) {
     if (row.severity == lang::Severity::warning) fmt::print("{:28} {}\n", row.name, row.summary);
   }
-}
-
-Result<lang::DiagnosticKinds> warnings_named(const std::vector<std::string>& names) {
-  lang::DiagnosticKinds kinds;
-  for (const std::string& name : names) {
-    if (name == lang::all_warnings_name) {
-      kinds |= lang::all_warnings();
-    } else if (const auto kind = lang::find_warning(name)) {
-      kinds.set(lang::index_of(*kind));
-    } else {
-      lang::Suggestion suggestion(name);
-      for (const lang::DiagnosticKindSpec& row : lang::diagnostic_kinds) {
-        if (row.severity == lang::Severity::warning) suggestion.consider(row.name);
-      }
-      const std::string hint = suggestion.name().empty() ? "tmcl asm --list-warnings prints all" : suggestion.text();
-      return Error{ErrorKind::usage, fmt::format("there is no warning \"{}\": {}", name, hint), {}};
-    }
-  }
-  return kinds;
 }
 
 /// The files of the options; the binary is always one of them.
@@ -121,8 +100,6 @@ Result<void> run_asm(const Context& context, const AsmOptions& options) {
     return {};
   }
   if (options.file.empty()) return Error{ErrorKind::usage, "FILE is required: the source to assemble", {}};
-  const Result<lang::DiagnosticKinds> switched_off = warnings_named(options.switched_off);
-  if (!switched_off) return switched_off.error();
   if (!options.module.empty()) {
     if (const auto named = named_module(options.module); !named) return named.error();
   }
@@ -131,12 +108,8 @@ Result<void> run_asm(const Context& context, const AsmOptions& options) {
   const Result<const ModuleDescription*> module = module_of_source(options.file, *text, options.module);
   if (!module) return module.error();
 
-  lang::AssemblerOptions assembler;
-  assembler.module = *module;
+  lang::AssemblerOptions assembler = assembler_options(options.assembler, **module);
   assembler.append_stop = !options.no_append_stop;
-  assembler.include_path = options.include_folders;
-  assembler.switched_off = *switched_off;
-  assembler.warnings_as_errors = options.warnings_as_errors;
   const std::string binary =
       options.output.empty() ? std::filesystem::path(options.file).replace_extension(".bin").string() : options.output;
   if (Result<void> checked = check_outputs(options, binary); !checked) return checked;
@@ -176,11 +149,8 @@ void add_asm(CLI::App& app, Context& context) {
   command->add_option("--symbols", options->symbols, "write labels and constants, as TMCL to include");
   command->add_option("--source-map", options->source_map, "write the place of each instruction as JSON");
   command->add_option("--c-array", options->c_array, "write a header for C and C++ with the program as an array");
-  command->add_option("-I,--include-folder", options->include_folders, "where else to look for included files");
+  add_assembler_options(*command, options->assembler);
   command->add_flag("--no-append-stop", options->no_append_stop, "do not add a STOP at the end");
-  command->add_option("--no-warning", options->switched_off, "switch a warning off, by its name; \"all\" for all")
-      ->allow_extra_args(false);
-  command->add_flag("--warnings-as-errors", options->warnings_as_errors, "make errors of all warnings");
   command->add_flag("--list-warnings", options->list_warnings, "print the names of all warnings");
   command->callback([&context, options] { context.finish(run_asm(context, *options)); });
 }

@@ -267,7 +267,7 @@ void add_debug(CLI::App& app, Context& context) {
                       "TMCL source; without one the scenario's program, or what a module has");
   command->add_option("--module", options->request.module, "pd1161 or tmcm1110; default: what the port says");
   command->add_option("--scenario", options->request.scenario, "the bench around a virtual module");
-  command->add_option("-I,--include-folder", options->request.include_folders, "where else to look for included files");
+  add_assembler_options(*command, options->request.assembler);
   command->add_flag("--attach", options->attach, "load nothing: the program is in the module, running or not");
   command->add_flag("--trust", options->trust, "as --attach, and do not compare the program with the source");
   command->add_flag("--batch", options->batch,

@@ -11,6 +11,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "apps/tmcl/assembler_choice.hpp"
 #include "apps/tmcl/commands.hpp"
 #include "apps/tmcl/context.hpp"
 #include "apps/tmcl/motion_state.hpp"
@@ -32,6 +33,7 @@ namespace {
 
 struct FarmOptions {
   std::string file;
+  AssemblerChoice assembler;
   std::string speed = "1";
   std::string duration;
   bool check = false;
@@ -54,14 +56,13 @@ Result<server::FarmDescription> read_description(const std::string& path) {
 /// The programs of a farm, each file assembled once for each kind of module.
 class Programs {
  public:
-  Result<void> assemble_all(const server::FarmDescription& farm) {
+  Result<void> assemble_all(const server::FarmDescription& farm, const AssemblerChoice& choice) {
     for (const server::FarmModule& module : farm.modules) {
       if (module.program.empty()) continue;
       const auto [place, is_new] = programs_.try_emplace({module.program, module.kind->id});
       if (!is_new) continue;
-      lang::AssemblerOptions options;
-      options.module = module.kind;
-      const Result<lang::AssemblyResult> assembled = assemble_file(module.program, options);
+      const Result<lang::AssemblyResult> assembled =
+          assemble_file(module.program, assembler_options(choice, *module.kind));
       if (!assembled) return assembled.error();
       place->second = assembled->program->commands;
     }
@@ -179,7 +180,7 @@ Result<void> run_farm(const Context& context, const FarmOptions& options) {
   Result<server::FarmDescription> description = read_description(options.file);
   if (!description) return description.error();
   Programs programs;
-  if (Result<void> assembled = programs.assemble_all(*description); !assembled) return assembled;
+  if (Result<void> assembled = programs.assemble_all(*description, options.assembler); !assembled) return assembled;
   if (options.check) return {};
 
   allow_many_files();
@@ -209,6 +210,7 @@ void add_farm(CLI::App& app, Context& context) {
   command->add_option("FILE", options->file, "the farm in TOML (docs/farm.md)")->required();
   command->add_option("--speed", options->speed, "times real time, or max")->capture_default_str();
   command->add_option("--duration", options->duration, "end after this much of the modules' time: 5s, 500ms, 2min");
+  add_assembler_options(*command, options->assembler);
   command->add_flag("--check", options->check, "only say what is wrong with the file and its programs");
   command->add_flag("-q,--quiet", options->quiet, "no live line");
   command->callback([&context, options] { context.finish(run_farm(context, *options)); });

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "apps/tmcl/assembler_choice.hpp"
 #include "apps/tmcl/commands.hpp"
 #include "apps/tmcl/context.hpp"
 #include "apps/tmcl/interruption.hpp"
@@ -28,7 +29,7 @@ struct RunOptions {
   std::string file;
   std::string module;
   std::string duration;
-  std::vector<std::string> include_folders;
+  AssemblerChoice assembler;
   bool quiet = false;
 };
 
@@ -115,10 +116,8 @@ Result<void> run_run(const Context& context, const RunOptions& options) {
   Client& client = *connection->client;
   const Result<const ModuleDescription*> module = chosen_module(options.module, client);
   if (!module) return module.error();
-  lang::AssemblerOptions assembler;
-  assembler.module = *module;
-  assembler.include_path = options.include_folders;
-  const Result<lang::AssemblyResult> assembled = assemble_file(options.file, assembler);
+  const Result<lang::AssemblyResult> assembled =
+      assemble_file(options.file, assembler_options(options.assembler, **module));
   if (!assembled) return assembled.error();
   const std::vector<Command>& commands = assembled->program->commands;
   const std::vector<Command> image = client::with_end_mark(commands, (*module)->program_capacity);
@@ -160,7 +159,7 @@ void add_run(CLI::App& app, Context& context) {
   command->add_option("FILE", options->file, "TMCL source")->required();
   command->add_option("--module", options->module, "pd1161 or tmcm1110; default: what the module says it is");
   command->add_option("--duration", options->duration, "stop program and motor after this time: 5s, 500ms");
-  command->add_option("-I,--include-folder", options->include_folders, "where else to look for included files");
+  add_assembler_options(*command, options->assembler);
   command->add_flag("-q,--quiet", options->quiet, "show no state");
   command->callback([&context, options] { context.finish(run_run(context, *options)); });
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/tmcl/assembler_choice.hpp"
 #include "apps/tmcl/commands.hpp"
 #include "apps/tmcl/context.hpp"
 #include "apps/tmcl/scenario_source.hpp"
@@ -18,14 +19,13 @@ namespace opentmcl::app {
 namespace {
 
 /// Also assembles the program.
-client::Result<void> check_scenario(const std::string& path) {
+client::Result<void> check_scenario(const std::string& path, const AssemblerChoice& choice) {
   const client::Result<ScenarioSource> source = scenario_from_file(path);
   if (!source) return source.error();
   const std::string program = program_path(source->scenario, path);
   if (program.empty()) return {};
-  lang::AssemblerOptions assembler;
-  assembler.module = source->scenario.module;
-  const client::Result<lang::AssemblyResult> assembled = assemble_file(program, assembler);
+  const client::Result<lang::AssemblyResult> assembled =
+      assemble_file(program, assembler_options(choice, *source->scenario.module));
   if (!assembled) return assembled.error();
   return {};
 }
@@ -41,8 +41,10 @@ void add_scenario(CLI::App& app, Context& context) {
   auto files = std::make_shared<std::vector<std::string>>();
   CLI::App* check = command->add_subcommand("check", "find all mistakes in scenario files")->fallthrough();
   check->add_option("FILE", *files, "scenarios, in TOML")->required();
-  check->callback([&context, files] {
-    for (const std::string& file : *files) context.finish(check_scenario(file));
+  auto choice = std::make_shared<AssemblerChoice>();
+  add_assembler_options(*check, *choice);
+  check->callback([&context, files, choice] {
+    for (const std::string& file : *files) context.finish(check_scenario(file, *choice));
   });
 
   command->add_subcommand("schema", "print the JSON schema of scenario files")->fallthrough()->callback([] {

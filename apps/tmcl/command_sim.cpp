@@ -326,6 +326,7 @@ void add_sim(CLI::App& app, Context& context) {
   CLI::Option* eeprom =
       command->add_option("--eeprom", options->eeprom, "keep the EEPROM in this file; made if it does not exist");
   CLI::Option* program = command->add_option("--program", options->program, "load this TMCL program and start it");
+  add_assembler_options(*command, options->assembler);
   CLI::Option* machine =
       command
           ->add_option("--machine", options->machine,

@@ -40,9 +40,7 @@ Result<debug::Program> assembled(const std::string& path, const DebugRequest& re
                                  const DebugListeners& listeners) {
   Result<std::string> text = read_source(path);
   if (!text) return text.error();
-  lang::AssemblerOptions options;
-  options.module = &module;
-  options.include_path = request.include_folders;
+  const lang::AssemblerOptions options = assembler_options(request.assembler, module);
   lang::DiskFiles files;
   lang::AssemblyResult result = lang::assemble(path, *std::move(text), options, files);
   if (!result.diagnostics.empty()) listeners.diagnostics(lang::format(result.diagnostics, result.sources));

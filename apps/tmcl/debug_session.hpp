@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/tmcl/assembler_choice.hpp"
 #include "apps/tmcl/context.hpp"
 #include "client/error.hpp"
 #include "client/program_transfer.hpp"
@@ -22,7 +23,7 @@ struct DebugRequest {
   std::string file;      ///< TMCL source; empty: the scenario's program, or what is in the module
   std::string module;    ///< empty: what the port says, or the source's comment
   std::string scenario;  ///< of the bench around a twin; empty: the usual bench
-  std::vector<std::string> include_folders;
+  AssemblerChoice assembler;
 };
 
 /// Who hears what has no place in an error. Nothing is printed.

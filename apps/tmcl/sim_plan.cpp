@@ -46,9 +46,8 @@ Result<std::vector<Command>> program_of(const SimOptions& options, const scenari
   if (!options.past().empty()) return std::vector<Command>();
   const std::string path = options.program.empty() ? program_path(scenario, options.scenario) : options.program;
   if (path.empty()) return std::vector<Command>();
-  lang::AssemblerOptions assembler;
-  assembler.module = scenario.module;
-  const Result<lang::AssemblyResult> assembled = assemble_file(path, assembler);
+  const Result<lang::AssemblyResult> assembled =
+      assemble_file(path, assembler_options(options.assembler, *scenario.module));
   if (!assembled) return assembled.error();
   return assembled->program->commands;
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/tmcl/assembler_choice.hpp"
 #include "apps/tmcl/sim_endpoints.hpp"
 #include "client/error.hpp"
 #include "firmware/wire/datagram.hpp"
@@ -21,6 +22,7 @@ struct SimOptions {
   std::string duration;
   std::string eeprom;
   std::string program;
+  AssemblerChoice assembler;
   std::string machine = "stage";
   std::string motor;  ///< empty: the module's own
   std::string scenario;

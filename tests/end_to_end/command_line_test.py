@@ -190,6 +190,37 @@ class Formatting(CommandLineTest):
         self.assertEqual(self.TIDY.encode(), self.read("p.tmc"))
 
 
+class Assembling(CommandLineTest):
+    """Every command that assembles has the options of `tmcl asm` for it."""
+
+    def setUp(self):
+        super().setUp()
+        os.mkdir(self.path("library"))
+        self.write("library/speed.tmc", "Speed = 100\n")
+        source = self.write("p.tmc", "#include speed.tmc\nUnused = 5\nMVP ABS, 0, Speed\n")
+        farm = self.write("farm.toml", '[[module]]\nname = "a"\ntcp = 0\nprogram = "p.tmc"\n')
+        scenario = self.write("scenario.toml", 'program = "p.tmc"\nduration = "10 ms"\n')
+        quiet = ("--quiet", "--pty-link", self.path("link"), "--tcp", "none", "--control", "none")
+        self.commands = (("asm", source), ("run", source), ("farm", "--check", farm), ("scenario", "check", scenario),
+                         ("sim", *quiet, "--duration", "10ms", "--program=" + source), ("sim", *quiet, "--scenario=" + scenario),
+                         ("debug", "-e", "quit", source))
+
+    def test_includes_from_other_folders(self):
+        for command in self.commands:
+            self.assertIn("speed.tmc", self.expect(65, *command).stderr)
+            # Nor does the option take a file that comes behind its folder.
+            self.expect(0, *command[:-1], "-I", self.path("library"), command[-1])
+
+    def test_warns_of_what_is_not_switched_off(self):
+        for command in self.commands:
+            command = (*command, "-I", self.path("library"))
+            self.assertIn("[unused-constant]", self.expect(0, *command).stderr)
+            self.assertNotIn("unused-constant", self.expect(0, *command, "--no-warning", "unused-constant").stderr)
+            self.assertIn("[unused-constant]", self.expect(65, *command, "--warnings-as-errors").stderr)
+            misspelt = self.expect(64, *command, "--no-warning", "unused-constants").stderr
+            self.assertIn("did you mean unused-constant?", misspelt)
+
+
 class ExitCodes(CommandLineTest):
     def test_1_when_the_module_says_no(self):
         self.assertIn("status 4", self.expect(1, "set", "4", "5000").stderr)
