@@ -158,17 +158,26 @@ TEST_F(SessionLogTest, RefusesWhatIsNoLogWithTheLine) {
   EXPECT_EQ(path + ":5: the event is earlier than the one before", refusal_of(good + "0 turn\n"));
   const std::string head = std::string(SessionLog::magic) + "\nformat 1\nsetup ";
   const std::string setup = good.substr(head.size(), good.find("\n1 turn") - head.size());
-  for (const auto& [from, to] :
-       std::initializer_list<std::pair<const char*, const char*>>{{"tmcm1110", "tmcm9999"},
-                                                                  {"free", "moon"},
-                                                                  {"rs485", "rs9"},
-                                                                  {R"("can":true)", R"("can":3)"},
-                                                                  {R"("turn":250)", R"("turn":0)"},
-                                                                  {R"("16320")", R"("16321")"},
-                                                                  {R"("64":"12)", R"("64":")"},
-                                                                  {R"("machine")", R"("engine")"},
-                                                                  {"QSH", "QHS"},
-                                                                  {"{", "["}}) {
+  for (const auto& [from, to] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"tmcm1110", "tmcm9999"},
+           {"free", "moon"},
+           {"rs485", "rs9"},
+           {"rs485", "rs232"},
+           {"9600", "299"},
+           {"9600", "1000001"},
+           {"9600", "0"},
+           {R"({"kind":"usb"})", R"({"kind":"usb"},{"kind":"usb"},{"kind":"usb"},{"kind":"usb"})"},
+           {"9600", "-1"},
+           {"9600", "9600.5"},
+           {"9600", "true"},
+           {"tmcm1110", "pd1161"},
+           {R"("can":true)", R"("can":3)"},
+           {R"("turn":250)", R"("turn":0)"},
+           {R"("16320")", R"("16321")"},
+           {R"("64":"12)", R"("64":")"},
+           {R"("machine")", R"("engine")"},
+           {"QSH", "QHS"},
+           {"{", "["}}) {
     std::string changed = setup;
     ASSERT_NE(std::string::npos, changed.find(from)) << from;
     changed.replace(changed.find(from), std::string(from).size(), to);

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "boards/twin/paced_port.hpp"
+#include "firmware/spec/lookup.hpp"
 #include "scenario/scenario_file.hpp"
 #include "scenario/section.hpp"
 #include "server/hexadecimal.hpp"
@@ -15,6 +16,9 @@
 namespace opentmcl::server {
 
 namespace {
+
+/// As many as a VirtualModule takes.
+constexpr std::size_t most_ports = 4;
 
 using client::Error;
 using client::ErrorKind;
@@ -81,6 +85,22 @@ Result<scenario::Scenario> plain_scenario(const SessionSetup& setup) {
   return plain;
 }
 
+/// As `tmcl sim` can have it. Throws json::exception.
+Result<SessionSetup::Port> port_from(const json& source, const ModuleDescription& module) {
+  const auto name = source.at("kind").get<std::string>();
+  const PortKindName* const kind = find_port_kind(name);
+  if (kind == nullptr) return bad("it has a port of kind \"" + name + "\": expected " + port_kind_choice(module));
+  if (const auto objection = absence(kind->kind, module)) return bad("one of its ports cannot be: " + *objection);
+  const auto wire = source.find("wire");
+  if (wire == source.end()) return SessionSetup::Port{kind->kind};
+  const std::int64_t rate = wire->is_number_integer() ? wire->get<std::int64_t>() : 0;
+  if (rate < PacedPort::slowest_rate || rate > PacedPort::fastest_rate) {
+    return bad("it has a line of " + wire->dump() + " bit/s: expected " + std::to_string(PacedPort::slowest_rate) +
+               " to " + std::to_string(PacedPort::fastest_rate));
+  }
+  return SessionSetup::Port{kind->kind, static_cast<std::uint32_t>(rate)};
+}
+
 }  // namespace
 
 EepromFile::Image SessionSetup::blank_eeprom() {
@@ -134,17 +154,19 @@ Result<SessionSetup> session_setup_from(const json& source) {
     if (const Result<scenario::Scenario> scenario = scenario_of(setup); !scenario) return scenario.error();
     setup.turn = source.at("turn").get<Microseconds>();
     if (setup.turn == 0) return bad("it has turns of 0 us");
-    for (const json& port : source.at("ports")) {
-      const auto name = port.at("kind").get<std::string>();
-      const PortKindName* const kind = find_port_kind(name);
-      if (kind == nullptr) {
-        return bad("it has a port of kind \"" + name + "\": expected " + port_kind_choice(*setup.module));
-      }
-      const auto wire = port.value("wire", std::int64_t{0});
-      if (wire < 0 || wire > PacedPort::fastest_rate) return bad("it has a line of " + std::to_string(wire) + " bit/s");
-      setup.ports.push_back({kind->kind, static_cast<std::uint32_t>(wire)});
+    for (const json& described : source.at("ports")) {
+      const Result<SessionSetup::Port> port = port_from(described, *setup.module);
+      if (!port) return port.error();
+      setup.ports.push_back(*port);
+    }
+    if (setup.ports.size() > most_ports) {
+      return bad("it has " + std::to_string(setup.ports.size()) + " ports: expected at most " +
+                 std::to_string(most_ports));
     }
     setup.has_can = source.at("can").get<bool>();
+    if (setup.has_can && !has_can(setup.module->id)) {
+      return bad("it has CAN, which a " + std::string(setup.module->name) + " lacks");
+    }
     if (const auto error = read_pages(source.at("eeprom"), setup.eeprom)) return *error;
   } catch (const json::exception& error) {
     return bad(std::string("its setup is incomplete or damaged: ") + error.what());
