@@ -110,6 +110,9 @@ Result<void> run_asm(const Context& context, const AsmOptions& options) {
 
   lang::AssemblerOptions assembler = assembler_options(options.assembler, **module);
   assembler.append_stop = !options.no_append_stop;
+  if (options.file == standard_input && options.output.empty()) {
+    return Error{ErrorKind::usage, "a source from standard input has no name: name the binary file with -o", {}};
+  }
   const std::string binary =
       options.output.empty() ? std::filesystem::path(options.file).replace_extension(".bin").string() : options.output;
   if (Result<void> checked = check_outputs(options, binary); !checked) return checked;
@@ -141,8 +144,9 @@ void add_asm(CLI::App& app, Context& context) {
       "  tmcl asm my.tmc -o /dev/null --c-array my.h      a header for programs in C\n"
       "  tmcl asm my.tmc --no-warning unused-label --warnings-as-errors\n\n"
       "The module a program is for can stand in its first lines: // module: tmcm1110\n"
-      "Files can be -, which is stdout. With errors none is written.");
-  command->add_option("FILE", options->file, "TMCL source");
+      "FILE can be -, which is standard input; the files that are written can be -, which is standard output.\n"
+      "With errors none is written.");
+  command->add_option("FILE", options->file, "TMCL source; - for standard input");
   command->add_option("-o,--output", options->output, "binary file, 8 bytes an instruction; default: FILE with .bin");
   command->add_option("--module", options->module, "pd1161 or tmcm1110; default: what FILE says, else pd1161");
   command->add_option("--listing", options->listing, "write addresses and bytes beside the source");

@@ -108,7 +108,8 @@ void add_dis(CLI::App& app, Context& context) {
       "`tmcl asm --no-append-stop` makes the same binary of the source again. Physical values in comments hold for "
       "the\n"
       "module's factory settings and what the program itself sets.");
-  command->add_option("FILE", options->file, "binary file, 8 bytes an instruction; without it the module at --port");
+  command->add_option("FILE", options->file,
+                      "binary file, 8 bytes an instruction; - for standard input; without it the module at --port");
   command->add_option("--module", options->module,
                       "pd1161 or tmcm1110; default: what the module says, for a file pd1161");
   command->add_flag("--no-comments", options->no_comments, "without names of parameters and physical values");

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <iostream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -15,17 +13,13 @@
 #include "apps/tmcl/source_program.hpp"
 #include "apps/tmcl/unified_diff.hpp"
 #include "lang/formatter.hpp"
-#include "lang/source.hpp"
 
 namespace opentmcl::app {
 
-using client::Error;
-using client::ErrorKind;
 using client::Result;
 
 namespace {
 
-constexpr const char* standard_input = "-";
 /// As of a module that says no: nothing failed, but the answer is not the wanted one.
 constexpr int would_change_exit_code = 1;
 
@@ -35,14 +29,6 @@ struct FmtOptions {
   bool diff = false;
   bool to_stdout = false;
 };
-
-Result<std::string> read_source(const std::string& path) {
-  Result<std::string> text =
-      path == standard_input ? std::string{std::istreambuf_iterator<char>(std::cin), std::istreambuf_iterator<char>()}
-                             : read_file(path);
-  if (!text || text->size() <= lang::maximum_text_size) return text;
-  return Error{ErrorKind::bad_file, fmt::format("{} is larger than 1 GiB", path), {}};
-}
 
 Result<void> replace_file(const std::string& path, const std::string& content) {
   Result<FileReplacement> replacement = FileReplacement::write(path, content);

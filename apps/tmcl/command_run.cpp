@@ -104,6 +104,29 @@ Result<Outcome> follow(Client& client, StatusLine& line, const Interruption& int
   }
 }
 
+/// To the module at the port. Without a port, to a virtual one of the kind the source is for; a port has to lead to
+/// that kind, unless the user says for which module the source is assembled.
+Result<Connection> connect_for(const Context& context, const RunOptions& options, const std::string& source) {
+  if (!options.module.empty()) return context.connect();
+  const Result<const ModuleDescription*> wanted = module_named_by(options.file, source);
+  if (!wanted) return wanted.error();
+  if (*wanted == nullptr) return context.connect();
+  if (context.port == Context().port) {
+    Context of_source = context;
+    of_source.port = fmt::format("sim:{}", (*wanted)->argument);
+    return of_source.connect();
+  }
+  Result<Connection> connection = context.connect();
+  if (!connection) return connection;
+  const Result<const ModuleDescription*> found = module_of(*connection->client);
+  if (!found) return found.error();
+  if (*found == *wanted) return connection;
+  return Error{ErrorKind::bad_file,
+               fmt::format("{} is for a {}, and at {} is a {}; --module {} loads it all the same", options.file,
+                           (*wanted)->name, context.port, (*found)->name, (*found)->argument),
+               {}};
+}
+
 Result<void> run_run(const Context& context, const RunOptions& options) {
   std::optional<client::Duration> limit;
   if (!options.duration.empty()) {
@@ -111,13 +134,15 @@ Result<void> run_run(const Context& context, const RunOptions& options) {
     if (!duration) return duration.error();
     limit = client::Duration(*duration);
   }
-  const Result<Connection> connection = context.connect();
+  Result<std::string> text = read_source(options.file);
+  if (!text) return text.error();
+  const Result<Connection> connection = connect_for(context, options, *text);
   if (!connection) return connection.error();
   Client& client = *connection->client;
   const Result<const ModuleDescription*> module = chosen_module(options.module, client);
   if (!module) return module.error();
   const Result<lang::AssemblyResult> assembled =
-      assemble_file(options.file, assembler_options(options.assembler, **module));
+      assemble_text(options.file, std::move(*text), assembler_options(options.assembler, **module));
   if (!assembled) return assembled.error();
   const std::vector<Command>& commands = assembled->program->commands;
   const std::vector<Command> image = client::with_end_mark(commands, (*module)->program_capacity);
@@ -127,8 +152,7 @@ Result<void> run_run(const Context& context, const RunOptions& options) {
   if (Result<void> loaded = client::download(client, image, 0, progress(line, interruption, "loaded")); !loaded) {
     return loaded;
   }
-  if (Result<void> verified = client::verify(client, image, 0, progress(line, interruption, "verified"));
-      !verified) {
+  if (Result<void> verified = client::verify(client, image, 0, progress(line, interruption, "verified")); !verified) {
     return verified;
   }
   if (Result<void> started = client.start_program(); !started) return started;
@@ -156,8 +180,9 @@ void add_run(CLI::App& app, Context& context) {
   command->footer(
       "Examples:\n  tmcl run my.tmc                       in a virtual module, as fast as possible\n"
       "  tmcl --port /dev/ttyACM0 run my.tmc   in a real one\n\nCtrl-C stops the program and the motor.");
-  command->add_option("FILE", options->file, "TMCL source")->required();
-  command->add_option("--module", options->module, "pd1161 or tmcm1110; default: what the module says it is");
+  command->add_option("FILE", options->file, "TMCL source; - for standard input")->required();
+  command->add_option("--module", options->module,
+                      "pd1161 or tmcm1110; default: what the module says it is, which has to be what FILE says");
   command->add_option("--duration", options->duration, "stop program and motor after this time: 5s, 500ms");
   add_assembler_options(*command, options->assembler);
   command->add_flag("-q,--quiet", options->quiet, "show no state");

@@ -244,8 +244,7 @@ Result<void> simulate(const Context& context, const SimOptions& options, SimPlan
   if (!opened) return opened.error();
   Session& session = **opened;
   if (!plan.program.empty()) {
-    Result<void> loaded =
-        server::load_program(session.module(), line, *setup.module, plan.program, !options.no_start);
+    Result<void> loaded = server::load_program(session.module(), line, *setup.module, plan.program, !options.no_start);
     if (!loaded) return loaded;
   }
 
@@ -300,7 +299,8 @@ void add_sim(CLI::App& app, Context& context) {
   command->footer(
       "Examples:\n  tmcl sim\n  tmcl sim tmcm1110 --program my.tmc --eeprom my.eeprom\n"
       "  tmcl sim --speed max --duration 10min --program my.tmc");
-  CLI::Option* module = command->add_option("MODULE", options->module, "pd1161 or tmcm1110")->capture_default_str();
+  CLI::Option* module =
+      command->add_option("MODULE", options->module, "pd1161 or tmcm1110; default: what the program says, else pd1161");
   command->add_option("--pty-link", options->endpoints.link,
                       "where to make a link to the serial port; default: tmcl-MODULE in $XDG_RUNTIME_DIR or /tmp");
   command->add_option(

@@ -205,6 +205,9 @@ Result<std::string> attach(debug::Engine& engine) {
 
 Result<DebugSession> open_debug_session(const Context& context, const DebugRequest& request,
                                         const DebugListeners& listeners, const client::Progress& progress) {
+  if (request.file == standard_input) {
+    return Error{ErrorKind::usage, "standard input has the debugger's commands: name a file with the source", {}};
+  }
   const Result<const ModuleDescription*> simulated = simulated_module(context);
   if (!simulated) return simulated.error();
   if (*simulated != nullptr) return open_twin(context, request, listeners, *simulated);

@@ -1,5 +1,6 @@
 #include "apps/tmcl/sim_plan.hpp"
 
+#include <string>
 #include <utility>
 
 #include "apps/tmcl/context.hpp"
@@ -18,7 +19,8 @@ using server::SessionSetup;
 
 namespace {
 
-Result<SessionSetup> setup_of(const SimOptions& options) {
+/// @param program the text of that of --program
+Result<SessionSetup> setup_of(const SimOptions& options, const std::string& program) {
   SessionSetup setup;
   if (!options.past().empty()) {
     Result<SessionLogReader> log = SessionLogReader::open(options.past());
@@ -33,7 +35,7 @@ Result<SessionSetup> setup_of(const SimOptions& options) {
     setup.scenario_name = options.scenario;
     return setup;
   }
-  const Result<const ModuleDescription*> found = named_module(options.module);
+  const Result<const ModuleDescription*> found = module_of_source(options.program, program, options.module);
   if (!found) return found.error();
   setup.module = *found;
   setup.machine = options.machine;
@@ -41,13 +43,16 @@ Result<SessionSetup> setup_of(const SimOptions& options) {
   return setup;
 }
 
-Result<std::vector<Command>> program_of(const SimOptions& options, const scenario::Scenario& scenario) {
+Result<std::vector<Command>> program_of(const SimOptions& options, std::string text,
+                                        const scenario::Scenario& scenario) {
   // A log has the commands with which its program was loaded.
   if (!options.past().empty()) return std::vector<Command>();
-  const std::string path = options.program.empty() ? program_path(scenario, options.scenario) : options.program;
-  if (path.empty()) return std::vector<Command>();
-  const Result<lang::AssemblyResult> assembled =
-      assemble_file(path, assembler_options(options.assembler, *scenario.module));
+  const lang::AssemblerOptions assembler = assembler_options(options.assembler, *scenario.module);
+  const std::string path = program_path(scenario, options.scenario);
+  if (path.empty() && options.program.empty()) return std::vector<Command>();
+  const Result<lang::AssemblyResult> assembled = options.program.empty()
+                                                     ? assemble_file(path, assembler)
+                                                     : assemble_text(options.program, std::move(text), assembler);
   if (!assembled) return assembled.error();
   return assembled->program->commands;
 }
@@ -74,7 +79,13 @@ Result<scenario::Recording> recording_of(const SimOptions& options, const scenar
 
 Result<SimPlan> SimPlan::of(const SimOptions& options) {
   SimPlan plan;
-  Result<SessionSetup> setup = setup_of(options);
+  std::string text;
+  if (!options.program.empty()) {
+    Result<std::string> read = read_source(options.program);
+    if (!read) return read.error();
+    text = *std::move(read);
+  }
+  Result<SessionSetup> setup = setup_of(options, text);
   if (!setup) return setup.error();
   plan.setup = *std::move(setup);
   Result<scenario::Scenario> scenario = scenario_of(plan.setup);
@@ -89,7 +100,7 @@ Result<SimPlan> SimPlan::of(const SimOptions& options) {
     if (!duration) return duration.error();
     plan.duration = *duration;
   }
-  Result<std::vector<Command>> program = program_of(options, plan.scenario);
+  Result<std::vector<Command>> program = program_of(options, std::move(text), plan.scenario);
   if (!program) return program.error();
   plan.program = *std::move(program);
   Result<scenario::Recording> recording = recording_of(options, plan.scenario);

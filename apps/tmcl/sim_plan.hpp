@@ -15,7 +15,7 @@ namespace opentmcl::app {
 
 /// The options of `tmcl sim`, as they were given.
 struct SimOptions {
-  std::string module = pd1161.argument;
+  std::string module;  ///< empty: what the program says, else the PD-1161
   SimEndpoints::Options endpoints;
   std::uint32_t wire = 0;  ///< bit/s of the serial line and of TCP; 0: bytes take no time
   std::string speed = "1";

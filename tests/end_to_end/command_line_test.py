@@ -221,6 +221,48 @@ class Assembling(CommandLineTest):
             self.assertIn("did you mean unused-constant?", misspelt)
 
 
+class ModulesOfPrograms(CommandLineTest):
+    """A source can say in a comment which module it is for."""
+
+    CALL = "// module: %s\nCALL ZE, Sub\nSTOP\nSub: RSUB\n"
+
+    def test_are_those_of_the_virtual_module(self):
+        for module, title in (("pd1161", "PD-1161"), ("tmcm1110", "TMCM-1110")):
+            source = self.write(module + ".tmc", "// module: %s\nWAIT TICKS, 0, 100\n" % module)
+            simulation = self.start("--program", source)
+            self.assertEqual(title, simulation.introduction["module"])
+            port = ("--port", simulation.introduction["tcp"])
+            self.expect(0, *port, "run", source)
+            simulation.stop()
+        # The PD-1161 has CALL, the TMCM-1110 has not.
+        self.expect(0, "run", self.write("call.tmc", self.CALL % "pd1161"))
+        self.assertIn("CALL is not available on the TMCM-1110", self.expect(65, "run", self.write("call.tmc", self.CALL % "tmcm1110")).stderr)
+
+    def test_are_not_confused_with_another(self):
+        source = self.write("call.tmc", self.CALL % "tmcm1110")
+        simulation = self.start("pd1161")
+        port = ("--port", simulation.introduction["tcp"])
+        self.assertIn("is for a TMCM-1110, and at", self.expect(65, *port, "run", source).stderr)
+        self.assertIn("no program", self.expect(1, *port, "dis").stderr)
+        self.expect(0, *port, "run", "--module", "pd1161", source)
+        for command in (("run",), ("sim", "--program"), ("asm",), ("debug",)):
+            self.assertIn("tmcm9", self.expect(65, *command, self.write("unknown.tmc", "// module: tmcm9\n")).stderr)
+
+
+class StandardInput(CommandLineTest):
+    def test_is_a_source_or_a_binary(self):
+        self.expect(0, "asm", "-", "-o", self.path("p.bin"), input="ROR 0, 100\n")
+        self.expect(0, "run", "-", input="ROR 0, 100\n")
+        with open(self.path("p.bin"), encoding="latin-1") as binary:
+            listed = self.expect(0, "dis", "-", input=binary.read()).stdout
+        self.assertEqual(self.expect(0, "dis", self.path("p.bin")).stdout, listed)
+        self.assertIn("-:1:1: error:", self.expect(65, "asm", "-", "-o", self.path("x.bin"), input="RORR 0\n").stderr)
+
+    def test_has_no_name_for_other_files(self):
+        self.assertIn("-o", self.expect(64, "asm", "-", input="ROR 0, 100\n").stderr)
+        self.assertIn("standard input has the debugger's commands", self.expect(64, "debug", "-", input="quit\n").stderr)
+
+
 class ExitCodes(CommandLineTest):
     def test_1_when_the_module_says_no(self):
         self.assertIn("status 4", self.expect(1, "set", "4", "5000").stderr)
