@@ -9,7 +9,7 @@ packages_to_build=(
 # shellcheck disable=SC2034
 packages_to_test=(
   libgtest-dev libgmock-dev librapidcheck-dev
-  python3-serial python3-can python3-jsonschema patch neovim
+  python3-serial python3-can python3-jsonschema patch neovim emacs-nox elpa-eglot
 )
 # shellcheck disable=SC2034
 packages_to_check=(
