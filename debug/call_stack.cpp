@@ -92,7 +92,7 @@ void CallStack::follow(const Command& command, std::uint16_t before, std::uint16
   if (can_call(opcode)) {
     // Ignored when the stack is full, and by CALL when its condition does not hold.
     const bool called = after != next || (opcode == Opcode::csub && command.value == next);
-    if (called && open_subroutines() < maximum_depth) enter({next, false});
+    if (called && open_subroutines() < maximum_open_calls) enter({next, false});
   } else if (opcode == Opcode::rsub) {
     const bool is_ignored = whole_ && open_subroutines() == 0;
     if (!is_ignored && (after != next || open_subroutines() > 0)) leave(false);

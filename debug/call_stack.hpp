@@ -25,9 +25,6 @@ struct OpenRoutine {
 
 class CallStack {
  public:
-  /// Of a module's subroutines (PD-1161 manual 3.7.20).
-  static constexpr std::size_t maximum_depth = 8;
-
   /// @param commands of the program: where its interrupt routines begin it says itself (VECT)
   explicit CallStack(const std::vector<Command>& commands);
 

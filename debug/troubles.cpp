@@ -44,7 +44,7 @@ Result<bool> lacks_supply(Client& client, const ModuleDescription& module) {
     const Command read{static_cast<std::uint8_t>(Opcode::gio), row.port, static_cast<std::uint8_t>(row.bank), 0};
     const Result<std::int32_t> voltage = client.execute(read);
     if (!voltage) return voltage.error();
-    return *voltage < lowest_supply;
+    return *voltage < lowest_supply_voltage;
   }
   return false;
 }

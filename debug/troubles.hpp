@@ -9,10 +9,6 @@
 
 namespace opentmcl::debug {
 
-/// Of the motor supply in 0.1 V; below it the firmware stops motor and program
-/// (docs/decisions/0026-under-voltage.md).
-inline constexpr std::int32_t lowest_supply = 85;
-
 /// Trouble bits of `wanted` that a module shows now. Only reads that change nothing: parameter 207, which says what has
 /// stopped the motor, forgets it when it is read, and the program could miss it. So a stall is what the driver
 /// measures while the motor turns (parameter 208), a deviation the difference of parameters 1 and 209 above 212.

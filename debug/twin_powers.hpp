@@ -12,6 +12,7 @@
 
 #include "client/error.hpp"
 #include "firmware/hal/time.hpp"
+#include "firmware/spec/instructions.hpp"
 
 namespace opentmcl::debug {
 
@@ -20,12 +21,10 @@ enum class Comparison : std::uint8_t { lower, equal, greater };
 
 /// What no command shows of a program: registers that only instructions see.
 struct InnerState {
-  static constexpr std::size_t stack_size = 8;
-
   Comparison comparison = Comparison::equal;
   std::uint8_t error_flags = 0;  ///< bit n is the flag n + 1 of CLE
   /// Where the open subroutines return to, the outermost first.
-  std::array<std::uint16_t, stack_size> return_addresses{};
+  std::array<std::uint16_t, maximum_open_calls> return_addresses{};
   std::size_t depth = 0;
   /// Where RETI returns to, while an interrupt routine is open.
   std::optional<std::uint16_t> interrupted;

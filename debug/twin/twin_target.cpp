@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "debug/troubles.hpp"
 #include "firmware/module/module.hpp"
+#include "firmware/spec/io_ports.hpp"
 #include "lang/diagnostic.hpp"
 #include "scenario/condition.hpp"
 #include "twin/world/quantities.hpp"
@@ -322,7 +322,7 @@ std::uint8_t TwinTarget::troubles() const {
       static_cast<std::uint8_t>(static_cast<int>(Trouble::stall) | static_cast<int>(Trouble::deviation));
   auto found = static_cast<std::uint8_t>(module_->module().axis_error_flags() & in_parameter_207);
   constexpr std::int32_t millivolts = 100;  // in 0.1 V
-  if (module_->world().supply_voltage() < lowest_supply * millivolts) {
+  if (module_->world().supply_voltage() < lowest_supply_voltage * millivolts) {
     found = static_cast<std::uint8_t>(found | static_cast<std::uint8_t>(Trouble::under_voltage));
   }
   return found;

@@ -4,7 +4,7 @@ namespace opentmcl {
 
 SupplyMonitor::Change SupplyMonitor::look() {
   const std::int32_t voltage = analog_.read(hal::AnalogInput::supply_voltage);
-  if (is_good_ ? voltage >= stop_below : voltage <= release_above) return Change::none;
+  if (is_good_ ? voltage >= lowest_supply_voltage : voltage <= release_above) return Change::none;
   is_good_ = !is_good_;
   return is_good_ ? Change::returned : Change::failed;
 }

@@ -3,14 +3,14 @@
 #include <cstdint>
 
 #include "firmware/hal/analog.hpp"
+#include "firmware/spec/io_ports.hpp"
 
 namespace opentmcl {
 
-/// Whether there is motor supply enough to move. Source: PD-1161 manual, firmware history V1.35;
-/// docs/decisions/0026-under-voltage.md.
+/// Whether there is motor supply enough to move: not below lowest_supply_voltage, and when it was, not before it is
+/// above `release_above` again (docs/decisions/0026-under-voltage.md).
 class SupplyMonitor {
  public:
-  static constexpr std::int32_t stop_below = 85;     ///< 0.1 V
   static constexpr std::int32_t release_above = 95;  ///< 0.1 V
 
   enum class Change : std::uint8_t { none, failed, returned };

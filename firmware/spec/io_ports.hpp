@@ -43,6 +43,9 @@ struct IoPortSpec {
 inline constexpr std::uint8_t all_ports = 255;
 /// Highest value of a 12-bit analog-to-digital conversion.
 inline constexpr std::int32_t analog_maximum = 4095;
+/// In 0.1 V: with less motor supply the firmware stops motor and program. Source: PD-1161 manual, firmware history
+/// V1.35; docs/decisions/0026-under-voltage.md.
+inline constexpr std::int32_t lowest_supply_voltage = 85;
 
 // clang-format off
 inline constexpr IoPortSpec io_ports[] = {
