@@ -275,7 +275,9 @@ Result<double> Engine::evaluate(std::string_view text) {
     return static_cast<std::uint8_t>(spec.opcode) == command->opcode;
   });
   if (!row->reads) {
-    return mistake(std::string(row->mnemonic) + " reads nothing; an instruction that changes the module is executed");
+    return mistake(std::string(row->mnemonic) +
+                   " has no value to show; expected an expression such as A or VAR(3), or an instruction that reads, "
+                   "such as GAP 1, 0");
   }
   const Result<std::int32_t> value = read(*command);
   if (!value) return value.error();

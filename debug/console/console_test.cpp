@@ -197,7 +197,7 @@ TEST(Console, SaysWhatIsWrong) {
                                                           {"log First", "expected a message"},
                                                           {"until", "expected a place"},
                                                           {"print", "expected an expression"},
-                                                          {"print MVP ABS, 0, 1", "reads nothing"}};
+                                                          {"print MVP ABS, 0, 1", "has no value"}};
   for (const auto& [line, message] : expected) EXPECT_THAT(terminal.mistake(line), HasSubstr(message)) << line;
 }
 
