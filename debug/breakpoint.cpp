@@ -131,7 +131,7 @@ Result<Breakpoint> make_breakpoint(BreakpointRequest request, const Program& pro
   if (request.kind == BreakpointRequest::Kind::signal) {
     if (twin == nullptr) {
       return mistake(
-          "signals can only be seen in a twin (--port sim:pd1161); on a module watch a parameter instead, "
+          "signals can only be seen in a twin (port sim:pd1161); on a module watch a parameter instead, "
           "such as GAP(3)");
     }
     Result<std::unique_ptr<Signal>> signal = twin->signal(request.subject);

@@ -45,7 +45,7 @@ Result<Stop> Engine::go_back(const Motion& motion, const KeepGoing& keep_going) 
   if (twin == nullptr) {
     return Error{
         ErrorKind::usage,
-        "a module does not go back in time; a twin does (--port sim:" + std::string(target_.module().argument) + ")",
+        "a module does not go back in time; a twin does (port sim:" + std::string(target_.module().argument) + ")",
         {}};
   }
   const Moment now = twin->now();

@@ -96,7 +96,7 @@ Result<ProgramStatus> ModuleTarget::halt() {
 Result<ProgramStatus> ModuleTarget::jump(std::uint16_t) {
   return Error{ErrorKind::usage,
                "no command sets a module's program counter without letting the program run; in a twin "
-               "(--port sim:pd1161) one can jump",
+               "(port sim:pd1161) one can jump",
                {}};
 }
 

@@ -62,6 +62,10 @@ Result<std::string> module_of(const SessionRequest& request) {
   return lang::module_named_in(*text) ? std::string() : request.default_module;
 }
 
+/// In the words of a launch configuration.
+constexpr LoadingAdvice advice{"\"request\": \"launch\" loads the source",
+                               "\"request\": \"attach\" with \"trust\": true"};
+
 class OpenedSession final : public Session {
  public:
   OpenedSession(DebugSession session, Loading loading) : session_(std::move(session)), loading_(loading) {}
@@ -69,7 +73,7 @@ class OpenedSession final : public Session {
   debug::Target& target() override { return *session_.target; }
   debug::Program take_program() override { return std::move(*session_.program); }
   Result<std::string> load(debug::Engine& engine, const client::Progress& progress) override {
-    return load_program(engine, loading_, progress);
+    return load_program(engine, loading_, advice, progress);
   }
 
  private:

@@ -37,6 +37,8 @@ struct DebugOptions {
   std::vector<std::string> commands;
 };
 
+constexpr LoadingAdvice advice{"without --attach the source is loaded", "--trust"};
+
 /// A motion in a script that nobody watches.
 constexpr client::Duration usual_limit_of_scripts = std::chrono::minutes(1);
 
@@ -221,7 +223,7 @@ Result<void> run_debug(const Context& context, const DebugOptions& options) {
   listener = &console;
 
   const Loading loading = options.trust ? Loading::trust : options.attach ? Loading::attach : Loading::download;
-  const Result<std::string> loaded = load_program(engine, loading, progress);
+  const Result<std::string> loaded = load_program(engine, loading, advice, progress);
   status.end();
   if (!loaded) return loaded.error();
   if (engine.target().twin() == nullptr) fmt::print(stderr, "{}: {}\n", context.port, *loaded);

@@ -104,11 +104,10 @@ Result<const ModuleDescription*> module_of_twin(const Context& context, const De
     Result<const ModuleDescription*> named = named_module(request.module);
     if (!named) return named;
     wanted = *named;
-    who = "--module";
     if (bench && bench->module != wanted) {
       return Error{
           ErrorKind::usage,
-          fmt::format("{} is for a {}, not for --module {}", request.scenario, bench->module->name, request.module),
+          fmt::format("{} is for a {}, but a {} is asked for", request.scenario, bench->module->name, wanted->name),
           {}};
     }
   }
@@ -121,7 +120,9 @@ Result<const ModuleDescription*> module_of_twin(const Context& context, const De
   const bool port_was_typed = context.port != Context().port;
   if (wanted == nullptr || (port_was_typed && wanted == by_port)) return by_port;
   if (!port_was_typed) return wanted;
-  return Error{ErrorKind::usage, fmt::format("{} is for a {}, not for {}", who, wanted->name, context.port), {}};
+  const std::string wish = request.module.empty() ? fmt::format("{} is for a {}", who, wanted->name)
+                                                  : fmt::format("a {} is asked for", wanted->name);
+  return Error{ErrorKind::usage, fmt::format("{}, but the port {} is a {}", wish, context.port, by_port->name), {}};
 }
 
 Result<DebugSession> open_twin(const Context& context, const DebugRequest& request, const DebugListeners& listeners,
@@ -155,7 +156,7 @@ Result<DebugSession> open_twin(const Context& context, const DebugRequest& reque
 Result<DebugSession> open_module(const Context& context, const DebugRequest& request, const DebugListeners& listeners,
                                  const client::Progress& progress) {
   if (!request.scenario.empty()) {
-    return Error{ErrorKind::usage, "a scenario is the bench of a twin (--port sim:pd1161), not of a module", {}};
+    return Error{ErrorKind::usage, "a scenario is the bench of a twin (port sim:pd1161), not of a module", {}};
   }
   Result<Connection> connection = context.connect();
   if (!connection) return connection.error();
@@ -173,7 +174,7 @@ Result<DebugSession> open_module(const Context& context, const DebugRequest& req
 }
 
 /// Where the program in the module departs from the source.
-Error another_program(debug::Engine& engine, const debug::MemoryComparison& comparison) {
+Error another_program(debug::Engine& engine, const debug::MemoryComparison& comparison, const LoadingAdvice& advice) {
   const debug::Program& program = engine.program();
   const std::uint16_t address = comparison.differing.front();
   const Result<Command> found = client::read_instruction(engine.target().client(), address);
@@ -184,15 +185,20 @@ Error another_program(debug::Engine& engine, const debug::MemoryComparison& comp
   return {
       ErrorKind::bad_file,
       fmt::format("{}: the module has another program: {} of {} instructions differ, the first at address {}, where "
-                  "it has `{}` and the source `{}`; without --attach the source is loaded",
+                  "it has `{}` and the source `{}`; {}",
                   place, comparison.differing.size(), program.size(), address, program.text_of(*found),
-                  program.text_of(program.commands()[address])),
+                  program.text_of(program.commands()[address]), advice.to_load),
       {}};
 }
 
-constexpr const char* hidden_program =
-    "the module's program is protected against reading (global parameter 81), so nobody can tell whether it is the one "
-    "of the source; --trust takes that on trust, and `tmcl set --global 0 81 0` erases it and lifts the protection";
+Error hidden_program(const LoadingAdvice& advice) {
+  return {ErrorKind::refused,
+          fmt::format("the module's program is protected against reading (global parameter 81), so nobody can tell "
+                      "whether it is the one of the source; {} takes that on trust, and `tmcl set --global 0 81 0` "
+                      "erases it and lifts the protection",
+                      advice.to_trust),
+          {}};
+}
 
 Result<std::string> attach(debug::Engine& engine) {
   const Result<debug::Stop> found = engine.attach();
@@ -214,18 +220,19 @@ Result<DebugSession> open_debug_session(const Context& context, const DebugReque
   return open_module(context, request, listeners, progress);
 }
 
-Result<std::string> load_program(debug::Engine& engine, Loading loading, const client::Progress& progress) {
+Result<std::string> load_program(debug::Engine& engine, Loading loading, const LoadingAdvice& advice,
+                                 const client::Progress& progress) {
   if (loading == Loading::trust) return attach(engine);
   Result<debug::MemoryComparison> comparison = engine.compare(progress);
   if (!comparison) return comparison.error();
   if (loading == Loading::attach) {
-    if (!comparison->readable) return Error{ErrorKind::refused, hidden_program, {}};
-    if (!comparison->is_same()) return another_program(engine, *comparison);
+    if (!comparison->readable) return hidden_program(advice);
+    if (!comparison->is_same()) return another_program(engine, *comparison, advice);
     return attach(engine);
   }
   std::string done = "the module has this program already";
   if (!comparison->is_loaded()) {
-    if (!comparison->readable && !comparison->writable) return Error{ErrorKind::refused, hidden_program, {}};
+    if (!comparison->readable && !comparison->writable) return hidden_program(advice);
     const Result<std::size_t> sent = engine.download(*comparison, progress);
     if (!sent) return sent.error();
     if (*sent > 0) done = fmt::format("sent {} of {} instructions", *sent, engine.program().size());

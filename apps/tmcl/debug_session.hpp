@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/tmcl/assembler_choice.hpp"
@@ -54,9 +55,16 @@ enum class Loading : std::uint8_t {
   trust,     ///< as attach, and nothing is compared
 };
 
+/// What a user can do when the program in the module is another one, or hidden: in the words of where it was begun.
+struct LoadingAdvice {
+  std::string_view to_load;   ///< clause: how the source gets into the module
+  std::string_view to_trust;  ///< subject of "takes that on trust": how the program is attached to without a comparison
+};
+
 /// @return what was done, as a sentence: "sent 3 of 40 instructions"
 /// Errors: bad_file (attach: the program is another one, with its first difference), refused (code protection, with
 /// what to do), protocol (what was sent did not arrive), and those of the connection.
-client::Result<std::string> load_program(debug::Engine& engine, Loading loading, const client::Progress& progress);
+client::Result<std::string> load_program(debug::Engine& engine, Loading loading, const LoadingAdvice& advice,
+                                         const client::Progress& progress);
 
 }  // namespace opentmcl::app

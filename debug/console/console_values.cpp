@@ -29,7 +29,7 @@ Error mistake(std::string message) {
 }
 
 Error only_on_a_twin(std::string_view what) {
-  return mistake(std::string(what) + " can only be seen in a twin (--port sim:pd1161 or sim:tmcm1110)");
+  return mistake(std::string(what) + " can only be seen in a twin (port sim:pd1161 or sim:tmcm1110)");
 }
 
 std::string_view trimmed(std::string_view text) {

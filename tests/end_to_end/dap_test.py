@@ -24,6 +24,7 @@ CALCULATES = 9  # lines
 ADDED = 10
 LOOPS = 5
 ENDLESS = "Loop:   CALC ADD, 1\n        JA Loop\n"
+CODE_PROTECTION = 81
 
 
 class DapTest(TemporaryFolderTest):
@@ -247,10 +248,29 @@ class Module(DapTest):
 
         client = self.adapter()
         client.ask("initialize", adapterID="tmcl")
-        with self.assertRaisesRegex(Refused, "the module has another program"):
+        with self.assertRaisesRegex(Refused, 'the module has another program.*"request": "launch" loads the source'):
             client.ask("attach", program=self.counting, port=self.port)
         self.leave(client)
         self.assertEqual(1, self.program_state())
+
+    def test_attaches_to_a_protected_program_on_trust_only(self):
+        client = self.adapter()
+        client.begin("launch", program=self.endless, port=self.port)
+        self.leave(client)
+        host = self.simulation.host()
+        host.do(tmcl_host.SGP, CODE_PROTECTION, 0, 3)
+        host.close()
+
+        client = self.adapter()
+        client.ask("initialize", adapterID="tmcl")
+        for request in ("launch", "attach"):
+            with self.assertRaisesRegex(Refused, 'global parameter 81.*"attach" with "trust": true takes that on trust'):
+                client.ask(request, program=self.endless, port=self.port)
+        client.ask("attach", program=self.endless, port=self.port, trust=True)
+        client.wait_for("initialized")
+        client.ask("configurationDone")
+        self.assertEqual("entry", client.stopped()["reason"])
+        self.leave(client)
 
     def test_stops_the_module_when_the_editor_is_gone(self):
         for end in (DapClient.close_input, lambda client: client.process.send_signal(signal.SIGTERM)):

@@ -163,7 +163,7 @@ class Module(TemporaryFolderTest):
         done = self.debug(COUNTING.replace("ADD, 5", "ADD, 6"), "--attach", "step")
         self.assertEqual(65, done.returncode)
         self.assertIn("my.tmc:7: the module has another program: 1 of 9 instructions differ", done.stderr)
-        self.assertIn("`CALC ADD, 5` and the source `CALC ADD, 6`", done.stderr)
+        self.assertIn("`CALC ADD, 5` and the source `CALC ADD, 6`; without --attach the source", done.stderr)
 
     def test_a_protected_program_is_debugged_on_trust_only(self):
         self.assertEqual(0, self.debug(COUNTING, "info program").returncode)
@@ -174,6 +174,7 @@ class Module(TemporaryFolderTest):
             done = self.debug(COUNTING, *options, "step")
             self.assertEqual(1, done.returncode, done.stderr)
             self.assertIn("global parameter 81", done.stderr)
+            self.assertIn("--trust takes that on trust", done.stderr)
         done = self.debug(COUNTING, "--trust", "restart", "break Work", "continue")
         self.assertEqual(0, done.returncode, done.stderr)
         self.assertIn("breakpoint 1, at Work", done.stdout)
@@ -187,7 +188,7 @@ class Module(TemporaryFolderTest):
     def test_nobody_goes_back_in_time_on_a_module(self):
         done = self.debug(COUNTING, "step", "reverse-step")
         self.assertEqual(64, done.returncode)
-        self.assertIn("--port sim:pd1161", done.stderr)
+        self.assertIn("port sim:pd1161", done.stderr)
 
     def test_ctrl_c_pauses_and_the_module_is_left_stopped(self):
         debugger = subprocess.Popen(
