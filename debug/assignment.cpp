@@ -3,14 +3,14 @@
 #include <cmath>
 #include <string>
 
+#include "debug/mistake.hpp"
+#include "debug/typed_text.hpp"
 #include "firmware/spec/global_parameters.hpp"
 #include "lang/diagnostic.hpp"
 #include "lang/names.hpp"
 
 namespace opentmcl::debug {
 
-using client::Error;
-using client::ErrorKind;
 using client::Result;
 
 namespace {
@@ -21,16 +21,6 @@ struct Settable {
   std::string_view write;
 };
 constexpr Settable settables[] = {{"GAP", "SAP"}, {"GGP", "SGP"}, {"GIO", "SIO"}};
-
-Error mistake(std::string message) {
-  return {ErrorKind::usage, std::move(message), {}};
-}
-
-std::string_view trimmed(std::string_view text) {
-  while (text.starts_with(' ')) text.remove_prefix(1);
-  while (text.ends_with(' ')) text.remove_suffix(1);
-  return text;
-}
 
 bool is_number_of_32_bits(double value) {
   return value == std::trunc(value) && value >= int32_minimum && value <= int32_maximum;

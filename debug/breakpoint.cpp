@@ -1,24 +1,14 @@
 #include "debug/breakpoint.hpp"
 
-#include <algorithm>
-#include <charconv>
 #include <utility>
 
+#include "debug/mistake.hpp"
+#include "debug/typed_text.hpp"
 #include "lang/diagnostic.hpp"
 
 namespace opentmcl::debug {
 
-using client::Error;
-using client::ErrorKind;
 using client::Result;
-
-namespace {
-
-Error mistake(std::string message) {
-  return {ErrorKind::usage, std::move(message), {}};
-}
-
-}  // namespace
 
 Result<HitCondition> HitCondition::parse(std::string_view text) {
   struct Sign {
@@ -28,11 +18,7 @@ Result<HitCondition> HitCondition::parse(std::string_view text) {
   // A sign that begins with another one stands before it.
   constexpr Sign signs[] = {{"==", Kind::equal}, {">=", Kind::from}, {"=", Kind::equal},
                             {">", Kind::after},  {"%", Kind::every}, {"", Kind::equal}};
-  const auto skip_blanks = [](std::string_view& rest) {
-    rest.remove_prefix(std::min(rest.find_first_not_of(' '), rest.size()));
-  };
-  std::string_view rest = text;
-  skip_blanks(rest);
+  std::string_view rest = trimmed(text);
   HitCondition condition;
   for (const Sign& sign : signs) {
     if (!rest.starts_with(sign.text)) continue;
@@ -40,10 +26,8 @@ Result<HitCondition> HitCondition::parse(std::string_view text) {
     rest.remove_prefix(sign.text.size());
     break;
   }
-  skip_blanks(rest);
-  while (rest.ends_with(' ')) rest.remove_suffix(1);
-  const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), condition.count_);
-  if (rest.empty() || error != std::errc{} || end != rest.data() + rest.size() || condition.count_ == 0) {
+  condition.count_ = number_in<std::uint64_t>(trimmed(rest)).value_or(0);
+  if (condition.count_ == 0) {
     return mistake("expected a count of hits from 1 on, such as 3, >= 3 or % 10, not " + lang::in_quotes(text));
   }
   return condition;

@@ -12,6 +12,18 @@
 
 namespace opentmcl::debug {
 
+/// Adds five to variable 2, three times.
+inline constexpr std::string_view counting = R"(
+        SGP 1, 2, 3        // 0
+Loop:   CSUB Work          // 1
+        DJNZ 1, Loop       // 2
+        STOP               // 3
+Work:   GGP 2, 2           // 4
+        CALC ADD, 5        // 5
+        AGP 2, 2           // 6
+        RSUB               // 7
+)";
+
 inline Program program_of(std::string_view text, const ModuleDescription& module = pd1161) {
   lang::MemoryFiles files;
   lang::AssemblerOptions options;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "debug/mistake.hpp"
 #include "lang/assembler.hpp"
 #include "lang/diagnostic.hpp"
 #include "lang/instruction_table.hpp"
@@ -14,14 +15,6 @@ using client::Error;
 using client::ErrorKind;
 using client::ProgramStatus;
 using client::Result;
-
-namespace {
-
-Error mistake(std::string message) {
-  return {ErrorKind::usage, std::move(message), {}};
-}
-
-}  // namespace
 
 Engine::Engine(Target& target, Program program, Output output)
     : target_(target),
@@ -271,9 +264,7 @@ Result<double> Engine::evaluate(std::string_view text) {
   }
   const Result<Command> command = parsed(text);
   if (!command) return command.error();
-  const auto row = std::find_if(std::begin(instructions), std::end(instructions), [&](const InstructionSpec& spec) {
-    return static_cast<std::uint8_t>(spec.opcode) == command->opcode;
-  });
+  const InstructionSpec* const row = find_instruction(command->opcode, program_.module().id);
   if (!row->reads) {
     return mistake(std::string(row->mnemonic) +
                    " has no value to show; expected an expression such as A or VAR(3), or an instruction that reads, "

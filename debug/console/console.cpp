@@ -4,10 +4,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "debug/mistake.hpp"
+#include "debug/typed_text.hpp"
 #include "lang/diagnostic.hpp"
 #include "lang/instruction_table.hpp"
 #include "lang/names.hpp"
@@ -15,8 +16,6 @@
 
 namespace opentmcl::debug {
 
-using client::Error;
-using client::ErrorKind;
 using client::Result;
 using nlohmann::ordered_json;
 
@@ -80,10 +79,6 @@ constexpr ConsoleCommand commands[] = {
     {"detach", "", "", "leave; the program runs on", "", &Console::detach, false},
 };
 
-Error mistake(std::string message) {
-  return {ErrorKind::usage, std::move(message), {}};
-}
-
 /// The command that `name` means: the whole name, a short one, or the begin of only one.
 Result<const ConsoleCommand*> find_command(std::string_view name) {
   std::string candidates;
@@ -107,13 +102,6 @@ Result<const ConsoleCommand*> find_command(std::string_view name) {
   return found;
 }
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r";
-  const std::size_t begin = text.find_first_not_of(blanks);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
-}
-
 }  // namespace
 
 std::vector<const ConsoleCommand*> console_commands() {
@@ -134,12 +122,12 @@ Console::Done Console::execute(std::string_view line) {
   const std::string repeated = last_line_;
   if (rest.empty()) rest = repeated;
   if (rest.empty()) return Outcome::done;
-  const std::size_t end = std::min(rest.find_first_of(" \t"), rest.size());
-  const Result<const ConsoleCommand*> command = find_command(rest.substr(0, end));
+  std::string_view arguments = rest;
+  const Result<const ConsoleCommand*> command = find_command(take_word(arguments));
   last_line_.clear();
   if (!command) return command.error();
   if ((*command)->repeats) last_line_ = rest;
-  return (this->*(*command)->carry_out)(trimmed(rest.substr(end)));
+  return (this->*(*command)->carry_out)(arguments);
 }
 
 void Console::print_line(const std::string& text) {

@@ -2,42 +2,23 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "debug/console/console.hpp"
 #include "debug/console/place.hpp"
+#include "debug/mistake.hpp"
 #include "debug/troubles.hpp"
+#include "debug/typed_text.hpp"
 #include "lang/diagnostic.hpp"
 
 namespace opentmcl::debug {
 
 using client::Error;
-using client::ErrorKind;
 using client::Result;
 using nlohmann::ordered_json;
 
 namespace {
-
-Error mistake(std::string message) {
-  return {ErrorKind::usage, std::move(message), {}};
-}
-
-std::string_view trimmed(std::string_view text) {
-  while (text.starts_with(' ')) text.remove_prefix(1);
-  while (text.ends_with(' ')) text.remove_suffix(1);
-  return text;
-}
-
-/// Takes the first word off.
-std::string_view take_word(std::string_view& text) {
-  text = trimmed(text);
-  const std::size_t end = std::min(text.find(' '), text.size());
-  const std::string_view word = text.substr(0, end);
-  text = trimmed(text.substr(end));
-  return word;
-}
 
 /// Where a word of its own begins, or npos.
 std::size_t find_word(std::string_view text, std::string_view word) {
@@ -53,12 +34,9 @@ Result<std::vector<int>> numbers_in(std::string_view text) {
   std::vector<int> numbers;
   while (!text.empty()) {
     const std::string_view word = take_word(text);
-    int number = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    if (error != std::errc{} || end != word.data() + word.size()) {
-      return mistake("expected the number of a breakpoint, not " + lang::in_quotes(word));
-    }
-    numbers.push_back(number);
+    const auto number = number_in<int>(word);
+    if (!number) return mistake("expected the number of a breakpoint, not " + lang::in_quotes(word));
+    numbers.push_back(*number);
   }
   return numbers;
 }

@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <nlohmann/json.hpp>
 
 #include "debug/console/console.hpp"
 #include "debug/console/place.hpp"
+#include "debug/mistake.hpp"
+#include "debug/typed_text.hpp"
 #include "lang/diagnostic.hpp"
 
 namespace opentmcl::debug {
@@ -73,10 +74,9 @@ std::string sentence_of(const Stop& stop) {
 
 Result<unsigned> count_in(std::string_view text) {
   if (text.empty()) return 1U;
-  unsigned count = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-  if (error == std::errc{} && end == text.data() + text.size() && count > 0) return count;
-  return Error{ErrorKind::usage, "expected a count from 1 on, not " + lang::in_quotes(text), {}};
+  const unsigned count = number_in<unsigned>(text).value_or(0);
+  if (count > 0) return count;
+  return mistake("expected a count from 1 on, not " + lang::in_quotes(text));
 }
 
 }  // namespace
@@ -225,7 +225,7 @@ Console::Done Console::animate(std::string_view arguments) {
   constexpr double slowest = 0.01;
   constexpr double fastest = 1000;
   if (speed < slowest || speed > fastest) {
-    return Error{ErrorKind::usage, "expected 0.01 to 1000 steps a second, not " + value_text(speed), {}};
+    return mistake("expected 0.01 to 1000 steps a second, not " + value_text(speed));
   }
   constexpr std::chrono::milliseconds longest_nap(50);
   const client::Duration begin = engine_.target().now();

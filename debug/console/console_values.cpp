@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -12,6 +11,8 @@
 #include "debug/console/console.hpp"
 #include "debug/console/place.hpp"
 #include "debug/inner_state_text.hpp"
+#include "debug/mistake.hpp"
+#include "debug/typed_text.hpp"
 #include "firmware/spec/global_parameters.hpp"
 #include "lang/diagnostic.hpp"
 
@@ -24,18 +25,8 @@ using nlohmann::ordered_json;
 
 namespace {
 
-Error mistake(std::string message) {
-  return {ErrorKind::usage, std::move(message), {}};
-}
-
 Error only_on_a_twin(std::string_view what) {
   return mistake(std::string(what) + " can only be seen in a twin (port sim:pd1161 or sim:tmcm1110)");
-}
-
-std::string_view trimmed(std::string_view text) {
-  while (text.starts_with(' ')) text.remove_prefix(1);
-  while (text.ends_with(' ')) text.remove_suffix(1);
-  return text;
 }
 
 }  // namespace
@@ -71,10 +62,8 @@ Console::Done Console::examine(std::string_view arguments) {
   std::string_view where = arguments;
   if (const std::size_t blank = arguments.rfind(' '); blank != std::string_view::npos) {
     const std::string_view last = arguments.substr(blank + 1);
-    const auto [end, error] = std::from_chars(last.data(), last.data() + last.size(), count);
-    if (error != std::errc{} || end != last.data() + last.size() || count == 0) {
-      return mistake("expected a count, not " + lang::in_quotes(last));
-    }
+    count = number_in<unsigned>(last).value_or(0);
+    if (count == 0) return mistake("expected a count, not " + lang::in_quotes(last));
     where = trimmed(arguments.substr(0, blank));
   }
   const bool goes_on = where.empty() && listed_until_;
@@ -133,9 +122,8 @@ Console::Done Console::display(std::string_view arguments) {
 }
 
 Console::Done Console::undisplay(std::string_view arguments) {
-  int number = 0;
-  const auto [end, error] = std::from_chars(arguments.data(), arguments.data() + arguments.size(), number);
-  if (error != std::errc{} || end != arguments.data() + arguments.size() || displays_.erase(number) == 0) {
+  const auto number = number_in<int>(arguments);
+  if (!number || displays_.erase(*number) == 0) {
     return mistake("there is no display " + lang::in_quotes(arguments));
   }
   return Outcome::done;

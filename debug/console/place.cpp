@@ -1,30 +1,17 @@
 #include "debug/console/place.hpp"
 
-#include <charconv>
-#include <optional>
 #include <string>
 
+#include "debug/mistake.hpp"
+#include "debug/typed_text.hpp"
 #include "lang/diagnostic.hpp"
 #include "lang/suggestion.hpp"
 
 namespace opentmcl::debug {
 
-using client::Error;
-using client::ErrorKind;
 using client::Result;
 
 namespace {
-
-Error mistake(std::string message) {
-  return {ErrorKind::usage, std::move(message), {}};
-}
-
-std::optional<std::size_t> number_in(std::string_view text) {
-  std::size_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (text.empty() || error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return number;
-}
 
 Result<std::uint16_t> of_line(lang::FileId file, std::size_t line, const Program& program) {
   if (const auto address = program.address_of(file, line)) return *address;
@@ -43,8 +30,8 @@ Result<std::uint16_t> of_label(std::string_view text, const Program& program) {
                    "; a place is a line (12), FILE:LINE, a label (Loop, Loop+2) or an address (*7)");
   }
   if (plus == std::string_view::npos) return *label;
-  const auto offset = number_in(text.substr(plus + 1));
-  if (!offset || *label + *offset >= program.size()) {
+  const auto offset = number_in<std::size_t>(text.substr(plus + 1));
+  if (!offset || *offset >= program.size() - *label) {
     return mistake(lang::in_quotes(text) + " is not in the program, which has " + std::to_string(program.size()) +
                    " instructions");
   }
@@ -55,12 +42,12 @@ Result<std::uint16_t> of_label(std::string_view text, const Program& program) {
 
 Result<std::uint16_t> address_of_place(std::string_view text, const Program& program, std::uint16_t here) {
   if (text.starts_with('*')) {
-    const auto address = number_in(text.substr(1));
+    const auto address = number_in<std::size_t>(text.substr(1));
     if (address && *address < program.module().program_capacity) return static_cast<std::uint16_t>(*address);
     return mistake("expected an address below " + std::to_string(program.module().program_capacity) + ", not " +
                    lang::in_quotes(text.substr(1)));
   }
-  if (const auto line = number_in(text)) {
+  if (const auto line = number_in<std::size_t>(text)) {
     const auto current = program.line_of(here);
     return of_line(current ? current->file : 0, *line, program);
   }
@@ -68,7 +55,7 @@ Result<std::uint16_t> address_of_place(std::string_view text, const Program& pro
   if (colon == std::string_view::npos) return of_label(text, program);
   const auto file = program.find_file(text.substr(0, colon));
   if (!file) return mistake("the program has no file " + lang::in_quotes(text.substr(0, colon)));
-  const auto line = number_in(text.substr(colon + 1));
+  const auto line = number_in<std::size_t>(text.substr(colon + 1));
   if (!line) return mistake("expected the number of a line, not " + lang::in_quotes(text.substr(colon + 1)));
   return of_line(*file, *line, program);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "debug/mistake.hpp"
 #include "firmware/module/module.hpp"
 #include "firmware/spec/io_ports.hpp"
 #include "lang/diagnostic.hpp"
@@ -50,10 +51,6 @@ constexpr int most_vain_looks = 100;
 /// Within it the firmware has written to its EEPROM whatever it wants to.
 constexpr Microseconds time_to_settle = 500 * one_millisecond;
 constexpr Microseconds longest_busy = 1000 * one_millisecond;
-
-Error mistake(std::string message) {
-  return {ErrorKind::usage, std::move(message), {}};
-}
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "debug/debugging_test.hpp"
+#include "debug/random_program_test.hpp"
 #include "scenario/scenario_file.hpp"
 
 namespace opentmcl::debug {
@@ -50,17 +51,6 @@ Seen see(Engine& engine) {
   for (const Frame& frame : engine.frames()) seen.frames.push_back(frame.address);
   return seen;
 }
-
-constexpr std::string_view counting = R"(
-        SGP 1, 2, 3        // 0
-Loop:   CSUB Work          // 1
-        DJNZ 1, Loop       // 2
-        STOP               // 3
-Work:   GGP 2, 2           // 4
-        CALC ADD, 5        // 5
-        AGP 2, 2           // 6
-        RSUB               // 7
-)";
 
 // ---- Stepping
 
@@ -372,33 +362,11 @@ set = { "input.1" = 1 }
   EXPECT_EQ(moment, bench.engine.target().twin()->now());
 }
 
-/// A program with loops, subroutines, motion and pauses, different for each seed.
-std::string random_program() {
-  std::string text = "Begin:\n";
-  const auto count = *rc::gen::inRange(1, 12);
-  for (int i = 0; i < count; ++i) {
-    const std::string number = std::to_string(*rc::gen::inRange(-50, 50));
-    const std::string variable = std::to_string(*rc::gen::inRange(0, 6));
-    const std::string lines[] = {
-        "CALC ADD, " + number,
-        "CALC XOR, " + number,
-        "CALCX SWAP",
-        "SGP " + variable + ", 2, " + number,
-        "GGP " + variable + ", 2",
-        "AGP " + variable + ", 2",
-        "CSUB Sub",
-        "COMP " + number + "\nJC GT, L" + std::to_string(i) + "\nCALC MUL, 3\nL" + std::to_string(i) + ":",
-        "WAIT TICKS, 0, 1",
-        "ROR 0, 300",
-        "GAP 1, 0",
-        "MVP REL, 0, 40\nWAIT POS, 0, 5"};
-    text += lines[static_cast<std::size_t>(*rc::gen::inRange(0, static_cast<int>(std::size(lines))))] + "\n";
-  }
-  return text + "JA Begin\nSub: CALC ADD, 1\nCSUB Inner\nRSUB\nInner: CALC MUL, 2\nRSUB\n";
-}
+const std::vector<std::string> moving_lines = {"WAIT TICKS, 0, 1", "ROR 0, 300", "GAP 1, 0",
+                                               "MVP REL, 0, 40\nWAIT POS, 0, 5"};
 
 RC_GTEST_PROP(DebuggedTwin, SteppingBackGivesTheStateBefore, ()) {
-  Bench bench(random_program());
+  Bench bench(random_program(moving_lines));
   std::vector<Seen> seen{see(bench.engine)};
   const auto steps = *rc::gen::inRange(1, 60);
   for (int i = 0; i < steps; ++i) {
@@ -412,7 +380,7 @@ RC_GTEST_PROP(DebuggedTwin, SteppingBackGivesTheStateBefore, ()) {
 }
 
 RC_GTEST_PROP(DebuggedTwin, RunningToABreakpointEqualsSingleSteps, ()) {
-  const std::string source = random_program();
+  const std::string source = random_program(moving_lines);
   Bench stepped(source);
   const auto steps = *rc::gen::inRange(1, 60);
   for (int i = 0; i < steps; ++i) go(stepped.engine, Motion::Kind::step);
@@ -425,7 +393,7 @@ RC_GTEST_PROP(DebuggedTwin, RunningToABreakpointEqualsSingleSteps, ()) {
 }
 
 RC_GTEST_PROP(DebuggedTwin, ReverseRunLandsAtTheLastBreakpointBefore, ()) {
-  Bench bench(random_program());
+  Bench bench(random_program(moving_lines));
   const auto size = static_cast<int>(bench.engine.program().size());
   for (int i = *rc::gen::inRange(1, 4); i > 0; --i) {
     break_at(bench.engine, static_cast<std::uint16_t>(*rc::gen::inRange(1, size)));

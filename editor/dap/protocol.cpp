@@ -5,7 +5,6 @@
 namespace opentmcl::editor::dap {
 
 using client::Error;
-using client::ErrorKind;
 using client::Result;
 
 namespace {
@@ -31,10 +30,6 @@ constexpr const char* an_integer = "a whole number";
 constexpr const char* a_truth = "true or false";
 
 }  // namespace
-
-Error mistake(std::string message) {
-  return {ErrorKind::usage, std::move(message), {}};
-}
 
 const json& member(const json& object, const char* name) {
   static const json nothing;

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "client/error.hpp"
+#include "debug/mistake.hpp"
 #include "editor/message_stream.hpp"
 
 namespace opentmcl::editor::dap {
@@ -17,7 +18,7 @@ using nlohmann::json;
 /// The body of a response, or the reason why the request failed.
 using Answer = client::Result<json>;
 
-client::Error mistake(std::string message);
+using debug::mistake;
 
 /// The member of this name; null if there is none, or `object` is no object.
 const json& member(const json& object, const char* name);

@@ -15,7 +15,7 @@ using testing::IsEmpty;
 std::set<std::uint8_t> variables_of(std::string text) {
   lang::MemoryFiles files;
   const lang::AssemblyResult result = lang::assemble("my.tmc", std::move(text), {}, files);
-  return result.program ? used_variables(result.program->commands) : std::set<std::uint8_t>{255};
+  return result.program ? used_variables(result.program->commands, ModuleId::pd1161) : std::set<std::uint8_t>{255};
 }
 
 TEST(UsedVariables, AreThoseOfBank2) {

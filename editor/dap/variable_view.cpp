@@ -196,7 +196,7 @@ Result<json> VariableView::registers() const {
 
 Result<json> VariableView::user_variables() const {
   json variables = json::array();
-  for (const std::uint8_t number : used_variables(engine_.program().commands())) {
+  for (const std::uint8_t number : used_variables(engine_.program().commands(), engine_.program().module().id)) {
     const Result<std::int32_t> value = engine_.variable(number);
     if (!value) return value.error();
     const std::string expression = expression_of_variable(number);

@@ -6,6 +6,7 @@
 
 #include "debug/debugging_test.hpp"
 #include "debug/module_target.hpp"
+#include "debug/random_program_test.hpp"
 #include "debug/twin/twin_target.hpp"
 #include "server/simulated_transport.hpp"
 
@@ -14,17 +15,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-constexpr std::string_view counting = R"(
-        SGP 1, 2, 3        // 0
-Loop:   CSUB Work          // 1
-        DJNZ 1, Loop       // 2
-        STOP               // 3
-Work:   GGP 2, 2           // 4
-        CALC ADD, 5        // 5
-        AGP 2, 2           // 6
-        RSUB               // 7
-)";
 
 struct Bench {
   explicit Bench(std::string_view source) : engine(target, program_of(source)) {}
@@ -253,26 +243,6 @@ TEST(DebuggedModule, AnUnansweredCommandIsAnErrorAndNoHang) {
   const auto step = bench.engine.go({Motion::Kind::step, 0, {}}, always);
   ASSERT_FALSE(step);
   EXPECT_EQ(client::ErrorKind::timeout, step.error().kind);
-}
-
-/// Instructions that calculate, call and jump: what they come to does not depend on the time.
-std::string random_program() {
-  std::string text = "Begin:\n";
-  const auto count = *rc::gen::inRange(1, 15);
-  for (int i = 0; i < count; ++i) {
-    const std::string number = std::to_string(*rc::gen::inRange(-50, 50));
-    const std::string variable = std::to_string(*rc::gen::inRange(0, 6));
-    const std::string label = "L" + std::to_string(i);
-    const std::string choices[] = {"CALC ADD, " + number,
-                                   "CALCX SWAP",
-                                   "SGP " + variable + ", 2, " + number,
-                                   "GGP " + variable + ", 2",
-                                   "AGP " + variable + ", 2",
-                                   "CSUB Sub",
-                                   "COMP " + number + "\nJC GT, " + label + "\nCALC MUL, 3\n" + label + ":"};
-    text += choices[static_cast<std::size_t>(*rc::gen::inRange(0, static_cast<int>(std::size(choices))))] + "\n";
-  }
-  return text + "JA Begin\nSub: CALC ADD, 1\nCSUB Inner\nRSUB\nInner: CALC MUL, 2\nRSUB\n";
 }
 
 RC_GTEST_PROP(DebuggedModule, GoesThroughTheSameAddressesAsATwinWithTheSameStack, ()) {

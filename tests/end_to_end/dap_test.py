@@ -5,26 +5,8 @@ import signal
 
 import tmcl_host
 from dap_client import DapClient, Refused
+from debugged_programs import ADDED, CALCULATES, CODE_PROTECTION, COUNTING, ENDLESS, LOOPS
 from tmcl_host import TemporaryFolderTest
-
-COUNTING = """\
-// Adds five, three times.
-#include TMCLParam.tmc
-        SGP 1, 2, 3
-Loop:   CSUB Work
-        DJNZ 1, Loop
-        STOP
-
-Work:   GGP 2, 2
-        CALC ADD, 5
-        AGP 2, 2
-        RSUB
-"""
-CALCULATES = 9  # lines
-ADDED = 10
-LOOPS = 5
-ENDLESS = "Loop:   CALC ADD, 1\n        JA Loop\n"
-CODE_PROTECTION = 81
 
 
 class DapTest(TemporaryFolderTest):

@@ -11,23 +11,11 @@ import subprocess
 import time
 
 import tmcl_host
+from debugged_programs import CALCULATES, CODE_PROTECTION, COUNTING, ENDLESS, READS
 from tmcl_host import DEADLINE, TemporaryFolderTest, eventually
 
-COUNTING = """\
-// counts to three
-        SGP 1, 2, 3
-Loop:   CSUB Work
-        DJNZ 1, Loop
-        STOP
-Work:   GGP 2, 2
-        CALC ADD, 5
-        AGP 2, 2
-        RSUB
-"""
-ENDLESS = "Loop: CALC ADD, 1\nJA Loop\n"
-# The same, but it can say that it has run for a while.
+# As ENDLESS, but it can say that it has run for a while.
 TALKING = "Loop: CALC ADD, 1\nCOMP 1000\nJC EQ, Once\nJA Loop\nOnce: JA Loop\n"
-CODE_PROTECTION = 81
 
 
 class Script(TemporaryFolderTest):
@@ -44,8 +32,8 @@ class Script(TemporaryFolderTest):
     def test_stops_at_a_breakpoint_and_shows_the_line(self):
         done = self.debug(COUNTING, "break Work if A >= 5", "run", "print VAR(2)", "bt")
         self.assertEqual(0, done.returncode, done.stderr)
-        self.assertIn("breakpoint 1, at Work, %s:6" % self.path("my.tmc"), done.stdout)
-        self.assertRegex(done.stdout, r"=> +6 Work: +GGP 2, 2")
+        self.assertIn("breakpoint 1, at Work, %s:%d" % (self.path("my.tmc"), READS), done.stdout)
+        self.assertRegex(done.stdout, r"=> +%d Work: +GGP 2, 2" % READS)
         self.assertIn("VAR(2) = 5\n", done.stdout)
         self.assertRegex(done.stdout, r"#1 +Loop\+1")
 
@@ -105,7 +93,7 @@ class Script(TemporaryFolderTest):
         events = [json.loads(line) for line in done.stdout.splitlines()]
         self.assertEqual(["stopped", "breakpoint", "output", "output", "output", "stopped", "value"],
                          [event["event"] for event in events])
-        self.assertEqual({"reason": "entry", "address": 0, "line": 2},
+        self.assertEqual({"reason": "entry", "address": 0, "line": 3},
                          {key: events[0][key] for key in ("reason", "address", "line")})
         self.assertEqual("VAR 5", events[3]["text"])
         self.assertEqual("ended", events[5]["reason"])
@@ -162,7 +150,7 @@ class Module(TemporaryFolderTest):
         self.assertEqual(0, self.debug(COUNTING, "info program").returncode)
         done = self.debug(COUNTING.replace("ADD, 5", "ADD, 6"), "--attach", "step")
         self.assertEqual(65, done.returncode)
-        self.assertIn("my.tmc:7: the module has another program: 1 of 9 instructions differ", done.stderr)
+        self.assertIn("my.tmc:%d: the module has another program: 1 of 9 instructions differ" % CALCULATES, done.stderr)
         self.assertIn("`CALC ADD, 5` and the source `CALC ADD, 6`; without --attach the source", done.stderr)
 
     def test_a_protected_program_is_debugged_on_trust_only(self):
