@@ -3,9 +3,8 @@
 //   conjunction = comparison {"&&" comparison}
 //   comparison = sum [("<" | "<=" | "==" | "=" | "!=" | ">=" | ">") sum]
 //   sum, product, unary, power as in lang/expression.hpp; "!" before a primary: 1 if it is 0, else 0
-//   primary    = number | register | label | constant | function "(" condition ")" | read "(" condition ["," condition]
-//   ")"
-//              | "(" condition ")"
+//   primary    = number | register | label | constant | "(" condition ")" | function "(" condition ")"
+//              | read "(" condition ["," condition] ")"
 // Registers are A, X and PC. Reads are those of TMCL: GAP(parameter [, motor]), GGP(parameter, bank), GIO(port, bank),
 // GCO(coordinate [, motor]), and VAR(number) for a user variable, GGP(number, 2). A parameter can be its number or its
 // symbol of the built-in include files, such as APActualPosition.
@@ -49,8 +48,7 @@ class ValueExpression {
   const std::string& text() const { return text_; }
 
   /// Floating point inside, as in the assembler; a truth is 1 or 0. What need not be read is not read: the right side
-  /// of
-  /// && and || only if the left one does not decide. Errors: those of `source`; usage (division by zero, no finite
+  /// of && and || only if the left one does not decide. Errors: those of `source`; usage (division by zero, no finite
   /// value, a parameter that is no whole number 0…255).
   client::Result<double> evaluate(ValueSource& source) const;
 
