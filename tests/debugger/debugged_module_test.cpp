@@ -4,11 +4,15 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "boards/twin/virtual_module.hpp"
 #include "debug/debugging_test.hpp"
 #include "debug/module_target.hpp"
 #include "debug/random_program_test.hpp"
 #include "debug/twin/twin_target.hpp"
+#include "scenario/scenario.hpp"
+#include "server/memory_line.hpp"
 #include "server/simulated_transport.hpp"
+#include "twin/world/quantities.hpp"
 
 namespace opentmcl::debug {
 namespace {
@@ -17,16 +21,22 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 struct Bench {
-  explicit Bench(std::string_view source) : engine(target, program_of(source)) {}
+  explicit Bench(std::string_view source, const VirtualModule::Options& board = {})
+      : module(pd1161, std::vector<hal::Port>{{&line.port(), hal::PortKind::usb}}, board),
+        engine(target, program_of(source)) {}
 
-  server::SimulatedTransport transport{pd1161};
+  server::MemoryLine line;
+  VirtualModule module;
+  server::SimulatedTransport transport{module, line, "sim:pd1161"};
   client::Client client{transport};
   ModuleTarget target{client, pd1161};
   Engine engine;
 };
 
 struct LoadedBench : Bench {
-  explicit LoadedBench(std::string_view source) : Bench(source) { launch(engine); }
+  explicit LoadedBench(std::string_view source, const VirtualModule::Options& board = {}) : Bench(source, board) {
+    launch(engine);
+  }
 };
 
 // ---- Loading
@@ -140,6 +150,15 @@ TEST(DebuggedModule, AProgramThatRunsByItselfIsPaused) {
   EXPECT_EQ(1, go(bench.engine, Motion::Kind::step_out).address);
 }
 
+TEST(DebuggedModule, RunsByItselfWhenItsBreakpointsAreDisabled) {
+  LoadedBench bench("Loop: CSUB Sub\nJA Loop\nSub: RSUB\n");
+  ASSERT_TRUE(bench.engine.enable(break_at(bench.engine, 2), false));
+  int asked = 0;
+  const Stop stop = value_of(bench.engine.go({Motion::Kind::run, 0, {}}, [&](const Underway&) { return ++asked < 3; }));
+  EXPECT_EQ(Stop::Reason::pause, stop.reason);
+  EXPECT_FALSE(bench.engine.frames_are_whole());
+}
+
 TEST(DebuggedModule, ABreakpointThatIsAddedWhileItRunsStopsIt) {
   LoadedBench bench("Loop: CALC ADD, 1\nJA Loop\n");
   bool added = false;
@@ -226,13 +245,105 @@ TEST(DebuggedModule, HasNeitherAPastNorSignals) {
   EXPECT_FALSE(bench.engine.jump(3));
 }
 
-TEST(DebuggedModule, ALostSupplyIsCaught) {
-  LoadedBench bench("Loop: JA Loop\n");
-  bench.engine.stop_at_troubles(static_cast<std::uint8_t>(Trouble::under_voltage));
+/// Turns the motor, fast enough for stallGuard2; no stall stops it.
+constexpr std::string_view turning = R"(
+#include TMCLParam.tmc
+        SAP APPulseDivisor, 0, 0
+        SAP APMaxCurrent, 0, 128
+        SAP APStallGuardFilter, 0, 0
+        SAP APStallGuardThreshold, 0, -18
+        ROL 0, 524
+        WAIT TICKS, 0, 50
+        SAP 212, 0, 2000
+Loop:   JA Loop             // 7
+)";
+constexpr std::uint16_t loop_of_turning = 7;
+
+struct Mishap {
+  Trouble trouble;
+  std::string_view quantity;
+  double value;
+  const char* name;
+};
+constexpr Mishap mishaps[] = {{Trouble::stall, "load.jammed", 1, "stall"},
+                              {Trouble::deviation, "load.jammed", 1, "deviation"},
+                              {Trouble::under_voltage, "supply_voltage", 5, "under-voltage"}};
+
+/// Lets the motor turn, and then the mishap happen while the program goes on. @param steps it is stepped
+Stop run_into(const Mishap& mishap, std::uint8_t troubles, bool steps) {
+  LoadedBench bench(turning, scenario::Scenario{}.board());
+  go(bench.engine, Motion::Kind::run_to, loop_of_turning);
+  bench.engine.stop_at_troubles(troubles);
+  if (steps) break_at(bench.engine, 0);
   // All is well: asking changes nothing.
   int asked = 0;
-  const Stop stop = value_of(bench.engine.go({Motion::Kind::run, 0, {}}, [&](const Underway&) { return ++asked < 3; }));
-  EXPECT_EQ(Stop::Reason::pause, stop.reason);
+  const Stop paused = value_of(bench.engine.go({Motion::Kind::run, 0, {}}, [&](const Underway&) {
+    bench.transport.pause(std::chrono::milliseconds(1));
+    return ++asked < 20;
+  }));
+  EXPECT_EQ(Stop::Reason::pause, paused.reason);
+  return value_of(bench.engine.go({Motion::Kind::run, 0, std::chrono::seconds(2)}, [&](const Underway&) {
+    twin::find_quantity(mishap.quantity)->write(bench.module.world(), mishap.value);
+    bench.transport.pause(std::chrono::milliseconds(1));
+    return true;
+  }));
+}
+
+TEST(DebuggedModule, StopsAtATroubleThatIsAskedFor) {
+  for (const bool steps : {false, true}) {
+    for (const Mishap& mishap : mishaps) {
+      SCOPED_TRACE(std::string(mishap.name) + (steps ? ", stepped" : ""));
+      const Stop stop = run_into(mishap, static_cast<std::uint8_t>(mishap.trouble), steps);
+      EXPECT_EQ(Stop::Reason::trouble, stop.reason);
+      EXPECT_EQ(mishap.name, stop.description);
+    }
+  }
+}
+
+TEST(DebuggedModule, DoesNotStopAtATroubleNobodyAskedFor) {
+  constexpr std::uint8_t jammed =
+      static_cast<std::uint8_t>(Trouble::stall) | static_cast<std::uint8_t>(Trouble::deviation);
+  constexpr auto unsupplied = static_cast<std::uint8_t>(Trouble::under_voltage);
+  EXPECT_EQ(Stop::Reason::limit, run_into(mishaps[0], unsupplied, false).reason);
+  EXPECT_EQ(Stop::Reason::ended, run_into(mishaps[2], jammed, false).reason);
+}
+
+TEST(DebuggedModule, StopsProgramAndMotor) {
+  LoadedBench bench("ROR 0, 500\nLoop: JA Loop\n");
+  value_of(bench.engine.go({Motion::Kind::run, 0, std::chrono::seconds(1)}, always));
+  EXPECT_NE(0, value_of(bench.client.axis_parameter(AxisParameter::actual_speed)));
+  expect_done(bench.engine.stop_all());
+  bench.transport.pause(std::chrono::seconds(2));
+  EXPECT_EQ(0, value_of(bench.client.axis_parameter(AxisParameter::actual_speed)));
+  EXPECT_EQ(client::ProgramStatus::State::stopped, value_of(bench.client.program_status()).state);
+}
+
+TEST(DebuggedModule, IsLeftRunningUnlessItsProgramHasEnded) {
+  LoadedBench bench(counting);
+  go(bench.engine, Motion::Kind::step);
+  expect_done(bench.engine.detach());
+  bench.transport.pause(std::chrono::seconds(1));
+  EXPECT_EQ(15, value_of(bench.engine.variable(2)));
+
+  value_of(bench.engine.restart());
+  go(bench.engine, Motion::Kind::run);
+  ASSERT_TRUE(bench.engine.has_ended());
+  expect_done(bench.engine.set_variable(2, 0));
+  expect_done(bench.engine.detach());
+  bench.transport.pause(std::chrono::seconds(1));
+  EXPECT_EQ(0, value_of(bench.engine.variable(2)));
+}
+
+TEST(DebuggedModule, AttachesToAProgramThatRuns) {
+  LoadedBench bench("Loop: CALC ADD, 1\nJA Loop\n");
+  expect_done(bench.engine.detach());
+  Engine engine(bench.target, program_of("Loop: CALC ADD, 1\nJA Loop\n"));
+  EXPECT_EQ(Stop::Reason::entry, value_of(engine.attach()).reason);
+  EXPECT_TRUE(engine.is_running());
+  EXPECT_FALSE(engine.frames_are_whole());
+  EXPECT_EQ(1, go(engine, Motion::Kind::run_to, 1).address);
+  EXPECT_FALSE(engine.is_running());
+  EXPECT_EQ(client::ProgramStatus::State::stopped, value_of(bench.client.program_status()).state);
 }
 
 TEST(DebuggedModule, AnUnansweredCommandIsAnErrorAndNoHang) {
