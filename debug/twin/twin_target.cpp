@@ -132,15 +132,17 @@ Result<ProgramStatus> TwinTarget::step(std::uint16_t, const Command&) {
 
 /// At most one, after which the program may have executed an instruction.
 void TwinTarget::take_turn() {
+  const ProgramMachine& program = module_->module().program();
   const std::uint64_t turns = module_->turns();
+  // In the turn in which an interrupt routine is entered, its first instruction is executed, which may be a call.
+  const std::size_t depth = program.depth();
   for (int look = 0; look < most_vain_looks && module_->turns() == turns; ++look) {
     const Microseconds next = module_->next_turn();
     if (next == never) return;
     module_->advance_to(std::max(next, module_->now()));
   }
-  const ProgramMachine& program = module_->module().program();
   const bool is_in_interrupt = program.is_in_interrupt();
-  if (is_in_interrupt && !was_in_interrupt_) interrupted_depth_ = program.depth();
+  if (is_in_interrupt && !was_in_interrupt_) interrupted_depth_ = depth;
   was_in_interrupt_ = is_in_interrupt;
 }
 
@@ -191,11 +193,9 @@ void TwinTarget::let_pass(Microseconds duration) {
 // ---- History
 
 void TwinTarget::note(const Deed& deed) {
-  if (repeated_ < deeds_.size()) {
-    // Another future begins here.
-    deeds_.resize(repeated_, deed);
-    furthest_ = module_->now();
-  }
+  // In the past, another future begins here.
+  deeds_.resize(repeated_, deed);
+  furthest_ = std::min(furthest_, module_->now());
   deeds_.push_back(deed);
   ++repeated_;
 }

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <utility>
+
 #include "debug/debugging_test.hpp"
 #include "debug/random_program_test.hpp"
 #include "scenario/scenario_file.hpp"
@@ -136,9 +138,12 @@ TEST(DebuggedTwin, AWaitWithoutEndCanBePausedAndItsBeginGoneBackTo) {
 
 TEST(DebuggedTwin, AMotionHasALimit) {
   Bench bench("Loop: JA Loop\n");
+  const client::Duration begin = bench.engine.target().now();
   const Stop stop =
       value_of(bench.engine.go({Motion::Kind::run, 0, client::Duration(std::chrono::seconds(2))}, always));
   EXPECT_EQ(Stop::Reason::limit, stop.reason);
+  EXPECT_GE(bench.engine.target().now() - begin, std::chrono::seconds(2));
+  EXPECT_LT(bench.engine.target().now() - begin, std::chrono::milliseconds(2500));
 }
 
 // ---- Breakpoints
@@ -206,6 +211,139 @@ TEST(DebuggedTwin, AWatchedValueStopsTheProgramWhenItChanges) {
   EXPECT_EQ(Stop::Reason::change, stop.reason);
   EXPECT_EQ(7, stop.address);
   EXPECT_EQ("VAR(2): 0 -> 5", stop.description);
+}
+
+TEST(DebuggedTwin, AConditionIsAskedWhenAWatchedValueChanges) {
+  Bench bench(counting);
+  BreakpointRequest request;
+  request.kind = BreakpointRequest::Kind::change;
+  request.subject = "VAR(2)";
+  request.condition = "VAR(1) < 3";
+  value_of(bench.engine.add(request));
+  EXPECT_EQ("VAR(2): 5 -> 10", go(bench.engine, Motion::Kind::run).description);
+}
+
+TEST(DebuggedTwin, WhatAPersonChangesIsNoChangeOfTheProgram) {
+  Bench bench(counting);
+  BreakpointRequest request;
+  request.kind = BreakpointRequest::Kind::change;
+  request.subject = "VAR(5)";
+  value_of(bench.engine.add(request));
+  go(bench.engine, Motion::Kind::step);
+  expect_done(bench.engine.set_variable(5, 9));
+  EXPECT_EQ(Stop::Reason::ended, go(bench.engine, Motion::Kind::run).reason);
+}
+
+TEST(DebuggedTwin, SaysAllThatStoppedItAtOnce) {
+  Bench bench(counting);
+  BreakpointRequest request;
+  request.kind = BreakpointRequest::Kind::change;
+  request.subject = "VAR(2)";
+  const int at_address = break_at(bench.engine, 7);
+  const int disabled = break_at(bench.engine, 7);
+  const int at_change = value_of(bench.engine.add(request));
+  ASSERT_TRUE(bench.engine.enable(disabled, false));
+  const Stop stop = go(bench.engine, Motion::Kind::run);
+  EXPECT_EQ(Stop::Reason::breakpoint, stop.reason);
+  EXPECT_THAT(stop.breakpoints, ElementsAre(at_address, at_change));
+  EXPECT_EQ("VAR(2): 0 -> 5", stop.description);
+}
+
+TEST(DebuggedTwin, ABreakpointThatIsDisabledDoesNotStopAndCountsNothing) {
+  Bench bench(counting);
+  const int number = break_at(bench.engine, 6);
+  EXPECT_TRUE(bench.engine.enable(number, false));
+  EXPECT_EQ(Stop::Reason::ended, go(bench.engine, Motion::Kind::run).reason);
+  EXPECT_EQ(0U, bench.engine.breakpoints().at(number).hits);
+  const int other = break_at(bench.engine, 0);
+  EXPECT_TRUE(bench.engine.enable(number, true));
+  EXPECT_FALSE(bench.engine.enable(other + 1, true));
+  value_of(bench.engine.restart());
+  EXPECT_EQ(6, go(bench.engine, Motion::Kind::run).address);
+}
+
+TEST(DebuggedTwin, HitsAreCountedAnewAfterARestart) {
+  Bench bench(counting);
+  BreakpointRequest request;
+  request.address = 5;
+  request.hit_condition = "2";
+  value_of(bench.engine.add(request));
+  for (int run = 0; run < 2; ++run) {
+    EXPECT_EQ(5, go(bench.engine, Motion::Kind::run).address);
+    EXPECT_EQ(5, value_of(bench.engine.variable(2)));
+    value_of(bench.engine.restart());
+  }
+}
+
+TEST(DebuggedTwin, ABreakpointAtTheLastInstructionStopsBeforeItAndNotBehindIt) {
+  Bench bench(counting);
+  break_at(bench.engine, 3);
+  EXPECT_EQ(Stop::Reason::breakpoint, go(bench.engine, Motion::Kind::run).reason);
+  EXPECT_EQ(Stop::Reason::ended, go(bench.engine, Motion::Kind::run).reason);
+}
+
+TEST(DebuggedTwin, AConditionIsAskedWhenASignalBecomesTrue) {
+  Bench bench("ROR 0, 1000\nLoop: JA Loop\n");
+  BreakpointRequest request;
+  request.kind = BreakpointRequest::Kind::signal;
+  request.subject = "velocity > 500";
+  request.condition = "PC > 1";
+  value_of(bench.engine.add(request));
+  const Stop stop = value_of(bench.engine.go({Motion::Kind::run, 0, std::chrono::seconds(2)}, always));
+  EXPECT_EQ(Stop::Reason::limit, stop.reason);
+}
+
+TEST(DebuggedTwin, ASignalThatStaysTrueStopsOnce) {
+  Bench bench("ROR 0, 1000\nLoop: JA Loop\n");
+  BreakpointRequest request;
+  request.kind = BreakpointRequest::Kind::signal;
+  request.subject = "velocity > 500";
+  value_of(bench.engine.add(request));
+  EXPECT_EQ(Stop::Reason::signal, go(bench.engine, Motion::Kind::run).reason);
+  const Stop stop = value_of(bench.engine.go({Motion::Kind::run, 0, std::chrono::seconds(2)}, always));
+  EXPECT_EQ(Stop::Reason::limit, stop.reason);
+}
+
+TEST(DebuggedTwin, ASignalThatIsTrueWhenItIsAddedDoesNotStop) {
+  Bench bench("ROR 0, 1000\nLoop: JA Loop\n");
+  bool added = false;
+  const auto add_once = [&](const Underway&) {
+    if (std::exchange(added, true)) return true;
+    BreakpointRequest request;
+    request.kind = BreakpointRequest::Kind::signal;
+    request.subject = "velocity > -1";
+    value_of(bench.engine.add(request));
+    return true;
+  };
+  const Stop stop = value_of(bench.engine.go({Motion::Kind::run, 0, std::chrono::seconds(2)}, add_once));
+  EXPECT_EQ(Stop::Reason::limit, stop.reason);
+}
+
+TEST(DebuggedTwin, ShowsAnInterruptRoutineBetweenSubroutines) {
+  Bench bench(R"(
+        VECT 0, Tick
+        SGP 0, 3, 20
+        EI 0
+        EI 255
+        CSUB Work         // 4
+        STOP              // 5
+Work:   CALC ADD, 1       // 6
+        JA Work           // 7
+Tick:   CSUB Sub          // 8
+        RETI              // 9
+Sub:    CALC ADD, 2       // 10
+        RSUB              // 11
+)");
+  break_at(bench.engine, 10);
+  go(bench.engine, Motion::Kind::run);
+  const std::vector<Frame> frames = bench.engine.frames();
+  ASSERT_EQ(4U, frames.size());
+  EXPECT_EQ(10, frames[0].address);
+  EXPECT_EQ(9, frames[1].address);
+  EXPECT_TRUE(frames[1].is_interrupt);
+  EXPECT_TRUE(frames[2].address == 6 || frames[2].address == 7);
+  EXPECT_EQ(5, frames[3].address);
+  for (const std::size_t subroutine : {0, 2, 3}) EXPECT_FALSE(frames[subroutine].is_interrupt);
 }
 
 TEST(DebuggedTwin, StopsWhenASignalBecomesTrue) {
@@ -337,6 +475,132 @@ TEST(DebuggedTwin, WhatTheUserDidIsDoneAgainOnTheWayForth) {
   expect_done(bench.engine.set_variable(2, 7));
   go(bench.engine, Motion::Kind::run_to, 7);
   EXPECT_EQ(12, value_of(bench.engine.variable(2)));
+}
+
+TEST(DebuggedTwin, WhatWasSetAtTheBenchIsSetAgainOnTheWayForth) {
+  Bench bench("Loop: GIO 1, 0\nJA Loop\n");
+  for (int i = 0; i < 4; ++i) go(bench.engine, Motion::Kind::step);
+  expect_done(bench.engine.target().twin()->set_quantity("input.1", 1));
+  go(bench.engine, Motion::Kind::step);
+  const Seen after = see(bench.engine);
+  EXPECT_EQ(1, after.accumulator);
+  for (int i = 0; i < 3; ++i) go(bench.engine, Motion::Kind::reverse_step);
+  EXPECT_EQ(0, see(bench.engine).accumulator);
+  for (int i = 0; i < 3; ++i) go(bench.engine, Motion::Kind::step);
+  EXPECT_EQ(after, see(bench.engine));
+}
+
+/// Parameter 207 says what has stopped the motor, and forgets it.
+TEST(DebuggedTwin, AReadThatAcknowledgesIsDoneAgainOnTheWayForth) {
+  Bench bench(into_the_end, near_the_end());
+  constexpr auto stall = static_cast<std::uint8_t>(Trouble::stall);
+  bench.engine.stop_at_troubles(stall);
+  ASSERT_EQ(Stop::Reason::trouble,
+            value_of(bench.engine.go({Motion::Kind::run, 0, std::chrono::seconds(10)}, always)).reason);
+  TwinPowers& twin = *bench.engine.target().twin();
+  EXPECT_EQ(stall, twin.troubles());
+  EXPECT_EQ(1, value_of(bench.engine.evaluate("GAP 207, 0")));
+  EXPECT_EQ(0, twin.troubles());
+  for (int i = 0; i < 3; ++i) go(bench.engine, Motion::Kind::step);
+  for (int i = 0; i < 2; ++i) go(bench.engine, Motion::Kind::reverse_step);
+  EXPECT_EQ(0, twin.troubles());
+}
+
+TEST(DebuggedTwin, NoTimePassesForSomebodyWhoWaitsWhileTheProgramStands) {
+  Bench bench(counting);
+  const Moment moment = bench.engine.target().twin()->now();
+  bench.twin.client().transport().pause(std::chrono::seconds(1));
+  EXPECT_EQ(moment, bench.engine.target().twin()->now());
+}
+
+TEST(DebuggedTwin, GoesBackOverAWaitAsAWhole) {
+  Bench bench("CSUB Sub\nSTOP\nSub: WAIT TICKS, 0, 10\nRSUB\n");
+  go(bench.engine, Motion::Kind::step);
+  const Seen before = see(bench.engine);
+  go(bench.engine, Motion::Kind::step);
+  go(bench.engine, Motion::Kind::reverse_step_over);
+  EXPECT_EQ(before, see(bench.engine));
+}
+
+TEST(DebuggedTwin, GoesBackToAChangeBeforeThisOne) {
+  Bench bench(counting);
+  BreakpointRequest request;
+  request.kind = BreakpointRequest::Kind::change;
+  request.subject = "VAR(2)";
+  value_of(bench.engine.add(request));
+  for (int i = 0; i < 2; ++i) go(bench.engine, Motion::Kind::run);
+  EXPECT_EQ("VAR(2): 0 -> 5", go(bench.engine, Motion::Kind::reverse_run).description);
+  EXPECT_EQ(Stop::Reason::beginning, go(bench.engine, Motion::Kind::reverse_run).reason);
+}
+
+TEST(DebuggedTwin, ALongJourneyInTimeCanBeInterrupted) {
+  Bench bench("Loop: CALC ADD, 1\nJA Loop\n");
+  value_of(bench.engine.go({Motion::Kind::run, 0, std::chrono::seconds(2)}, always));
+  TwinPowers& twin = *bench.engine.target().twin();
+  const Moment moment = twin.now();
+  const auto never_on = [] { return false; };
+  expect_done(twin.go_to(twin.beginning(), never_on));
+  const auto interrupted = twin.go_to(moment, never_on);
+  ASSERT_FALSE(interrupted);
+  EXPECT_EQ(client::ErrorKind::interrupted, interrupted.error().kind);
+}
+
+TEST(DebuggedTwin, AWayBackThatIsInterruptedLeavesTheProgramWhereItWas) {
+  Bench bench("Loop: CALC ADD, 1\nJA Loop\n");
+  value_of(bench.engine.go({Motion::Kind::run, 0, std::chrono::seconds(2)}, always));
+  const Seen before = see(bench.engine);
+  const Stop stop =
+      value_of(bench.engine.go({Motion::Kind::reverse_run, 0, {}}, [](const Underway&) { return false; }));
+  EXPECT_EQ(Stop::Reason::pause, stop.reason);
+  EXPECT_EQ(before, see(bench.engine));
+}
+
+TEST(DebuggedTwin, NothingIsCountedOrSaidOnTheWayBack) {
+  Bench bench(counting);
+  BreakpointRequest request;
+  request.address = 6;
+  request.log_message = "A is {A}";
+  value_of(bench.engine.add(request));
+  const int number = break_at(bench.engine, 5);
+  for (int i = 0; i < 3; ++i) go(bench.engine, Motion::Kind::run);
+  EXPECT_EQ(5, go(bench.engine, Motion::Kind::reverse_run).address);
+  EXPECT_EQ(3U, bench.engine.breakpoints().at(number).hits);
+  EXPECT_THAT(bench.output, ElementsAre("A is 5", "A is 10"));
+}
+
+TEST(DebuggedTwin, AScenarioSpeaksOnceForEachHistory) {
+  TwinSetup setup;
+  scenario::ScenarioFile file = scenario::read_scenario(R"(
+module = "pd1161"
+duration = "1 s"
+[[event]]
+at = "1 ms"
+set = { "input.1" = 1 }
+note = "soon"
+[[event]]
+at = "300 ms"
+set = { "input.1" = 0 }
+note = "not before the restart"
+)");
+  setup.scenario = file.scenario.value();
+  std::vector<std::string> said;
+  TwinTarget twin(std::move(setup), [&said](const scenario::Report& report) { said.push_back(report.text); });
+  Engine engine(twin, program_of("Loop: CALC ADD, 1\nJA Loop\n"));
+  launch(engine);
+  EXPECT_THAT(said, ElementsAre());
+  const Motion for_10_ms{Motion::Kind::run, 0, std::chrono::milliseconds(10)};
+  value_of(engine.go(for_10_ms, always));
+  EXPECT_EQ(1U, said.size());
+  // Back to the begin and forth again, where it is the same again; then in another future.
+  go(engine, Motion::Kind::reverse_run);
+  value_of(engine.go(for_10_ms, always));
+  EXPECT_EQ(1U, said.size());
+  go(engine, Motion::Kind::reverse_run);
+  expect_done(engine.set_variable(1, 1));
+  value_of(engine.go(for_10_ms, always));
+  EXPECT_EQ(2U, said.size());
+  value_of(engine.restart());
+  EXPECT_EQ(2U, said.size());
 }
 
 TEST(DebuggedTwin, AScenarioIsAPartOfTheHistory) {
