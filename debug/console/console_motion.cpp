@@ -162,6 +162,7 @@ Console::Done Console::run(std::string_view) {
     Stop there = *stop;
     there.reason = Stop::Reason::breakpoint;
     there.breakpoints = {number};
+    if (breakpoint.request.temporary) engine_.remove(number);
     show_stop(there);
     return Outcome::done;
   }

@@ -128,6 +128,51 @@ TEST(Console, EveryCommandHasHelpAndABreakpointItsDescription) {
   EXPECT_THAT(terminal.shown, ElementsAre("breakpoint 1: Second+1, program.tmc:4, if X > 3, hits % 2"));
 }
 
+TEST(Console, RunStopsAtABreakpointAtTheBegin) {
+  Terminal terminal;
+  terminal.type("tbreak First");
+  terminal.type("run");
+  EXPECT_THAT(terminal.shown.front(), HasSubstr("breakpoint 1, at First"));
+  EXPECT_EQ(0, terminal.engine.stop().address);
+  terminal.type("break Second");
+  terminal.type("run");
+  EXPECT_EQ(2, terminal.engine.stop().address) << "the first one is gone";
+  terminal.type("delete");
+  EXPECT_THAT(terminal.engine.breakpoints(), IsEmpty());
+  terminal.type("break First if PC > 0");
+  terminal.type("run");
+  EXPECT_TRUE(terminal.engine.has_ended());
+}
+
+TEST(Console, ACountOfStepsEndsWhereTheProgramDoes) {
+  Terminal terminal;
+  terminal.type("step 3");
+  EXPECT_EQ(3, terminal.engine.stop().address);
+  terminal.type("step 10");
+  EXPECT_THAT(terminal.shown.front(), HasSubstr("the program has ended"));
+}
+
+TEST(Console, ShowsDisplaysWheneverTheProgramStands) {
+  Terminal terminal;
+  terminal.type("display PC * 2");
+  EXPECT_THAT(terminal.shown, ElementsAre("1: PC * 2 = 0"));
+  terminal.type("step");
+  EXPECT_EQ("1: PC * 2 = 2", terminal.shown.back());
+  terminal.type("undisplay 1");
+  terminal.type("step");
+  EXPECT_THAT(terminal.shown, Not(Contains(HasSubstr("PC * 2"))));
+  EXPECT_THAT(terminal.mistake("display Nowhere"), HasSubstr("neither a register"));
+}
+
+TEST(Console, WordsMayBePartedByTabs) {
+  Terminal terminal;
+  terminal.type("break\tSecond+1\t");
+  EXPECT_EQ(3, terminal.engine.breakpoints().at(1).request.address);
+  terminal.type("disable\t1");
+  EXPECT_FALSE(terminal.engine.breakpoints().at(1).enabled);
+  EXPECT_THAT(terminal.mistake("break Second+18446744073709551615"), HasSubstr("not in the program"));
+}
+
 TEST(Console, UntilAndTemporaryBreakpointsLeaveNothingBehind) {
   Terminal terminal;
   terminal.type("tbreak Second");

@@ -79,6 +79,9 @@ Console::Done Console::examine(std::string_view arguments) {
     print_line(fmt::format("{} {:5}  {:24} {}", is_here ? "=>" : "  ", address, engine_.program().name_of(place),
                            engine_.program().text_of(*command)));
   }
+  listed_until_ = address < capacity ? std::optional(static_cast<std::uint16_t>(address)) : std::nullopt;
+  // An empty line goes on where this ends.
+  last_line_ = listed_until_ ? "x" : "";
   return Outcome::done;
 }
 

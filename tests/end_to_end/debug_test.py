@@ -99,6 +99,12 @@ class Script(TemporaryFolderTest):
         self.assertEqual("ended", events[5]["reason"])
         self.assertEqual(15, events[6]["value"])
 
+    def test_an_empty_line_shows_further_instructions(self):
+        done = self.debug_input(COUNTING, "x Loop 2\n\n")
+        self.assertEqual(0, done.returncode, done.stderr)
+        shown = re.findall(r"^ +(\d+)  \w", done.stdout, re.M)
+        self.assertEqual([str(address) for address in range(1, 13)], shown)
+
     def test_the_bench_of_a_scenario_is_around_the_twin(self):
         self.write("wait.tmc", "Loop: GIO 1, 0\nJC ZE, Loop\nSTOP\n")
         bench = self.write("bench.toml", 'module = "pd1161"\nprogram = "wait.tmc"\nduration = "1 s"\n'
