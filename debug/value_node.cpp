@@ -7,6 +7,7 @@
 
 #include "debug/mistake.hpp"
 #include "lang/instruction_table.hpp"
+#include "lang/operand_field.hpp"
 
 namespace opentmcl::debug {
 
@@ -17,22 +18,6 @@ namespace {
 
 bool is_truth(double value) {
   return value != 0;
-}
-
-void put(Command& command, Field field, double value) {
-  switch (field) {
-    case Field::type:
-      command.type = static_cast<std::uint8_t>(value);
-      break;
-    case Field::motor:
-      command.motor = static_cast<std::uint8_t>(value);
-      break;
-    case Field::value:
-      command.value = static_cast<std::int32_t>(value);
-      break;
-    case Field::none:
-      break;
-  }
 }
 
 Result<double> widened(const Result<std::int32_t>& value) {
@@ -64,7 +49,8 @@ Result<double> Node::evaluate_read(ValueSource& source) const {
   // A user variable is a global parameter of its bank.
   const InstructionSpec& row = read != nullptr ? *read : *lang::find_mnemonic("GGP");
   command.opcode = static_cast<std::uint8_t>(row.opcode);
-  if (read == nullptr) put(command, row.operands[1].field, static_cast<double>(Bank::user_variables));
+  if (read == nullptr)
+    lang::set_operand_value(command, row.operands[1], static_cast<std::int32_t>(Bank::user_variables));
   for (std::size_t i = 0; i < operands.size(); ++i) {
     Result<double> value = operands[i]->evaluate(source);
     if (!value) return value;
@@ -73,7 +59,7 @@ Result<double> Node::evaluate_read(ValueSource& source) const {
       return mistake(std::string(row.mnemonic) + " takes whole numbers from " + std::to_string(operand.minimum) +
                      " to " + std::to_string(operand.maximum) + " there, not " + value_text(*value));
     }
-    put(command, operand.field, *value);
+    lang::set_operand_value(command, operand, static_cast<std::int32_t>(*value));
   }
   return widened(source.read(command));
 }

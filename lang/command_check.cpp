@@ -9,6 +9,7 @@
 #include "firmware/spec/global_parameters.hpp"
 #include "firmware/spec/interrupts.hpp"
 #include "lang/instruction_table.hpp"
+#include "lang/operand_field.hpp"
 #include "lang/operand_meaning.hpp"
 #include "lang/table_rows.hpp"
 

@@ -11,21 +11,6 @@
 
 namespace opentmcl::lang {
 
-/// The number an instruction carries for an operand.
-constexpr std::int32_t operand_value(const Command& command, const OperandSpec& operand) {
-  switch (operand.field) {
-    case Field::type:
-      return command.type;
-    case Field::motor:
-      return command.motor;
-    case Field::value:
-      return command.value;
-    case Field::none:
-      break;
-  }
-  return 0;
-}
-
 /// Warns of what can be written in an instruction but will be refused by the module: operands out of their range,
 /// motors, axis and global parameters it lacks or does not let this instruction access, values they do not take.
 /// `statement` is what `command` was made of, all its operands written or optional.

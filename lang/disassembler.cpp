@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "firmware/spec/instructions.hpp"
-#include "lang/command_check.hpp"
 #include "lang/formatter.hpp"
 #include "lang/hexadecimal.hpp"
 #include "lang/instruction_table.hpp"
+#include "lang/operand_field.hpp"
 #include "lang/operand_meaning.hpp"
 
 namespace opentmcl::lang {

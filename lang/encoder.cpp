@@ -7,6 +7,7 @@
 #include "firmware/spec/parameter_rows.hpp"
 #include "lang/command_check.hpp"
 #include "lang/instruction_table.hpp"
+#include "lang/operand_field.hpp"
 #include "lang/suggestion.hpp"
 
 namespace opentmcl::lang {
@@ -14,22 +15,6 @@ namespace {
 
 /// With more names than this none is suggested for a wrong one: comparing would take longer than assembling.
 constexpr std::size_t maximum_suggested_names = 5000;
-
-void store(Field field, std::int32_t value, Command& command) {
-  switch (field) {
-    case Field::type:
-      command.type = static_cast<std::uint8_t>(value);
-      break;
-    case Field::motor:
-      command.motor = static_cast<std::uint8_t>(value);
-      break;
-    case Field::value:
-      command.value = value;
-      break;
-    case Field::none:
-      break;
-  }
-}
 
 /// Halves away from zero. Nearly all operands are small whole numbers already.
 double nearest_integer(double number) {
@@ -92,7 +77,7 @@ Encoding InstructionEncoder::encode_operand(const OperandSpec& operand, TokenRan
     if (range.size() == 1 && first.kind == TokenKind::name && takes_words(operand.kind)) {
       const int word = find_packed_word(operand.kind, first.packed);
       if (word >= 0) {
-        store(operand.field, word, command);
+        set_operand_value(command, operand, word);
         return Encoding::done;
       }
     }
@@ -105,7 +90,7 @@ Encoding InstructionEncoder::encode_operand(const OperandSpec& operand, TokenRan
   if (takes_words(operand.kind) && word_of(operand.kind, value) == nullptr) {
     return report_no_word(operand.kind, value, range, scope);
   }
-  store(operand.field, value, command);
+  set_operand_value(command, operand, value);
   return Encoding::done;
 }
 

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <string_view>
 
-#include "lang/command_check.hpp"
 #include "lang/instruction_table.hpp"
+#include "lang/operand_field.hpp"
 #include "lang/operand_kind.hpp"
 #include "lang/operand_meaning.hpp"
 #include "lang/table_rows.hpp"

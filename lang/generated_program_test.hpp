@@ -14,10 +14,10 @@
 #include "firmware/spec/instructions.hpp"
 #include "firmware/spec/modules.hpp"
 #include "firmware/wire/datagram.hpp"
-#include "lang/command_check.hpp"
 #include "lang/include_files.hpp"
 #include "lang/instruction_table.hpp"
 #include "lang/names.hpp"
+#include "lang/operand_field.hpp"
 
 namespace opentmcl::lang {
 

@@ -9,6 +9,7 @@
 #include "lang/diagnostic.hpp"
 #include "lang/expression.hpp"
 #include "lang/instruction_table.hpp"
+#include "lang/operand_field.hpp"
 
 namespace opentmcl::lang {
 namespace {
@@ -27,13 +28,9 @@ std::optional<std::int32_t> value_of(TokenRange range, OperandKind kind, const S
 }
 
 /// False for a value that does not fit the field.
-bool store(Field field, std::int32_t value, Command& command) {
-  if (field == Field::value) {
-    command.value = value;
-    return true;
-  }
-  if (value < 0 || value > 255) return false;
-  (field == Field::type ? command.type : command.motor) = static_cast<std::uint8_t>(value);
+bool store(const OperandSpec& operand, std::int32_t value, Command& command) {
+  if (operand.field != Field::value && (value < 0 || value > 255)) return false;
+  set_operand_value(command, operand, value);
   return true;
 }
 
@@ -51,7 +48,7 @@ OperandValues operand_values(const SourceLine& line, std::string_view text, File
   for (std::size_t i = 0; i < count; ++i) {
     const OperandSpec& operand = line.instruction->operands[i];
     const std::optional<std::int32_t> value = value_of(line.statement.operands[i], operand.kind, scope);
-    values.is_known[i] = value.has_value() && store(operand.field, *value, values.command);
+    values.is_known[i] = value.has_value() && store(operand, *value, values.command);
   }
   return values;
 }

@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "firmware/spec/instructions.hpp"
-#include "lang/command_check.hpp"
+#include "lang/operand_field.hpp"
 
 namespace opentmcl::editor::dap {
 
