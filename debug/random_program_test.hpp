@@ -3,10 +3,18 @@
 
 #include <rapidcheck.h>
 
+#include <initializer_list>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace opentmcl::debug {
+
+inline std::string joined(std::initializer_list<std::string_view> parts) {
+  std::string text;
+  for (const std::string_view part : parts) text += part;
+  return text;
+}
 
 /// A program that never ends, of instructions that calculate, call and jump: what they come to does not depend on the
 /// time. @param others lines that may stand among them
@@ -17,14 +25,14 @@ inline std::string random_program(const std::vector<std::string>& others = {}) {
     const std::string number = std::to_string(*rc::gen::inRange(-50, 50));
     const std::string variable = std::to_string(*rc::gen::inRange(0, 6));
     const std::string label = "L" + std::to_string(i);
-    std::vector<std::string> choices = {"CALC ADD, " + number,
-                                        "CALC XOR, " + number,
+    std::vector<std::string> choices = {joined({"CALC ADD, ", number}),
+                                        joined({"CALC XOR, ", number}),
                                         "CALCX SWAP",
-                                        "SGP " + variable + ", 2, " + number,
-                                        "GGP " + variable + ", 2",
-                                        "AGP " + variable + ", 2",
+                                        joined({"SGP ", variable, ", 2, ", number}),
+                                        joined({"GGP ", variable, ", 2"}),
+                                        joined({"AGP ", variable, ", 2"}),
                                         "CSUB Sub",
-                                        "COMP " + number + "\nJC GT, " + label + "\nCALC MUL, 3\n" + label + ":"};
+                                        joined({"COMP ", number, "\nJC GT, ", label, "\nCALC MUL, 3\n", label, ":"})};
     choices.insert(choices.end(), others.begin(), others.end());
     text += *rc::gen::elementOf(choices) + "\n";
   }

@@ -63,8 +63,7 @@ Result<std::string> module_of(const SessionRequest& request) {
 }
 
 /// In the words of a launch configuration.
-constexpr LoadingAdvice advice{"\"request\": \"launch\" loads the source",
-                               "\"request\": \"attach\" with \"trust\": true"};
+constexpr LoadingAdvice advice{R"("request": "launch" loads the source)", R"("request": "attach" with "trust": true)"};
 
 class OpenedSession final : public Session {
  public:

@@ -343,7 +343,7 @@ Sub:    CALC ADD, 2       // 10
   EXPECT_TRUE(frames[1].is_interrupt);
   EXPECT_TRUE(frames[2].address == 6 || frames[2].address == 7);
   EXPECT_EQ(5, frames[3].address);
-  for (const std::size_t subroutine : {0, 2, 3}) EXPECT_FALSE(frames[subroutine].is_interrupt);
+  for (const std::size_t subroutine : {0U, 2U, 3U}) EXPECT_FALSE(frames[subroutine].is_interrupt);
 }
 
 TEST(DebuggedTwin, StopsWhenASignalBecomesTrue) {

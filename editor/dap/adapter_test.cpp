@@ -14,8 +14,6 @@
 namespace opentmcl::editor::dap {
 namespace {
 
-using testing::HasSubstr;
-
 constexpr const char* endless = "Loop: CALC ADD, 1\n JA Loop\n";
 
 std::vector<json> events_of(const std::vector<json>& messages, const std::string& name) {
@@ -218,7 +216,7 @@ class WatchedSession final : public Session {
   WatchedSession(std::unique_ptr<Session> session, Watched& watched) : session_(std::move(session)), watched_(watched) {
     watched_.is_there = true;
   }
-  ~WatchedSession() override {
+  ~WatchedSession() override {  // NOLINT(bugprone-exception-escape): a test that throws here has failed
     const client::Result<client::ProgramStatus> status = session_->target().status();
     if (status.ok() && status->state == client::ProgramStatus::State::stopped) ++watched_.stops;
     watched_.is_there = false;
@@ -409,7 +407,7 @@ TEST(DebugAdapter, SaysWhatIsWrongWithAMessage) {
 
 /// Something JSON, small.
 rc::Gen<json> any_json(int depth) {
-  const rc::Gen<json> simple = rc::gen::oneOf(
+  rc::Gen<json> simple = rc::gen::oneOf(
       rc::gen::just(json()), rc::gen::map(rc::gen::arbitrary<bool>(), [](bool value) { return json(value); }),
       rc::gen::map(rc::gen::arbitrary<std::int64_t>(), [](std::int64_t value) { return json(value); }),
       rc::gen::map(rc::gen::inRange(-2, 2049), [](int value) { return json(value); }),
