@@ -22,7 +22,7 @@ constexpr int deepest_name = 4;
 
 }  // namespace
 
-ValueReader::ValueReader(ProblemList& problems) : problems_(problems), module_(nullptr) {
+ValueReader::ValueReader(ProblemList& problems) : problems_(problems) {
   set_bench(pd1161, {});
 }
 

@@ -58,7 +58,7 @@ class ValueReader {
   std::optional<Value> commands(const toml::node& node);
 
   ProblemList& problems_;
-  const ModuleDescription* module_;
+  const ModuleDescription* module_ = nullptr;
   std::optional<twin::World> world_;  ///< a machine to ask what there is
 };
 
