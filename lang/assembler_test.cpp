@@ -424,7 +424,9 @@ TEST(Limits, TakeLongNamesAndShowThemInPart) {
 }
 
 TEST(Limits, AreClearOfLinesWithoutEnd) {
-  const AssemblyResult result = assemble_text(std::string(10'000'000, '(') + "\nMST 1\n");
+  std::string text;
+  text.append(10'000'000, '(').append("\nMST 1\n");
+  const AssemblyResult result = assemble_text(text);
   EXPECT_THAT(problems_of(result.diagnostics, result.sources),
               ElementsAre(Problem{DiagnosticKind::line_too_long, {1, 1}, ""},
                           Problem{DiagnosticKind::no_such_motor, {2, 5}, "1"}));

@@ -11,6 +11,7 @@
 
 namespace opentmcl::lang {
 
+// NOLINTNEXTLINE(readability-identifier-naming): the name is GoogleTest's
 inline void PrintTo(const Span& span, std::ostream* out) {
   *out << "file " << span.file << ", " << span.offset << " + " << span.length;
 }
@@ -21,6 +22,7 @@ using testing::ElementsAre;
 
 std::vector<Span> spans_of(const std::vector<NameUse>& uses) {
   std::vector<Span> spans;
+  spans.reserve(uses.size());
   for (const NameUse& use : uses) spans.push_back(use.span);
   return spans;
 }

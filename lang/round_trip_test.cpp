@@ -80,7 +80,7 @@ RC_GTEST_PROP(RoundTrip, KeepsGeneratedPrograms, (std::uint64_t first_seed)) {
     RC_ASSERT(first.binary == to_program_file(commands));
     const std::string again = disassembled(first.binary, module, Comments::meanings);
     const Assembled second = assembled("again.tmc", again, module);
-    if (second.binary != first.binary) RC_FAIL(second.errors + source + "\nbecame\n" + again);
+    if (second.binary != first.binary) RC_FAIL(second.errors + source + std::string("\nbecame\n").append(again));
     RC_ASSERT(format_source(again) == again);
   }
 }

@@ -84,7 +84,7 @@ RC_GTEST_PROP(SourceLine, BeginsBehindTheEndOfTheLineBefore, ()) {
   RC_ASSERT(start_of_line(text, offset) == lines.start_of(lines.position_of(offset).line));
 }
 
-RC_GTEST_PROP(SourceLine, GivesEachTokenARole, (std::string text)) {
+RC_GTEST_PROP(SourceLine, GivesEachTokenARole, (const std::string& text)) {
   Lexer lexer(text);
   SourceLine line;
   while (!lexer.at_end()) {

@@ -171,7 +171,7 @@ RC_GTEST_PROP(LanguageServer, KnowsTheSameTextFromEditsAndAsAWhole, ()) {
     const TextIndex index(text, counted);
     const std::size_t from = index.offset_of(*position_of(start));
     const std::size_t to = std::max(from, index.offset_of(*position_of(end)));
-    text = text.substr(0, from) + inserted + text.substr(to);
+    text.replace(from, to - from, inserted);
     if (*rc::gen::arbitrary<bool>()) edited.published();
   }
   Client whole(encoding);

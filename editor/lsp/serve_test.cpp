@@ -82,6 +82,7 @@ class Conversation {
 
 std::vector<json> codes_and_ids(const std::vector<json>& messages) {
   std::vector<json> list;
+  list.reserve(messages.size());
   for (const json& message : messages) {
     list.push_back({message.value("id", json()), message.contains("error") ? message["error"]["code"] : json()});
   }

@@ -10,6 +10,7 @@
 
 namespace opentmcl::editor::lsp {
 
+// NOLINTNEXTLINE(readability-identifier-naming): the name is GoogleTest's
 inline void PrintTo(const Position& position, std::ostream* out) {
   *out << position.line << ":" << position.character;
 }
