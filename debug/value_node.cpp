@@ -49,8 +49,9 @@ Result<double> Node::evaluate_read(ValueSource& source) const {
   // A user variable is a global parameter of its bank.
   const InstructionSpec& row = read != nullptr ? *read : *lang::find_mnemonic("GGP");
   command.opcode = static_cast<std::uint8_t>(row.opcode);
-  if (read == nullptr)
+  if (read == nullptr) {
     lang::set_operand_value(command, row.operands[1], static_cast<std::int32_t>(Bank::user_variables));
+  }
   for (std::size_t i = 0; i < operands.size(); ++i) {
     Result<double> value = operands[i]->evaluate(source);
     if (!value) return value;

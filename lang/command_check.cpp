@@ -20,9 +20,6 @@ constexpr int move_to_coordinate = value_of_word(OperandKind::mvp_mode, "COORD")
 constexpr int wait_for_ticks = value_of_word(OperandKind::wait_event, "TICKS");
 static_assert(move_to_coordinate >= 0 && wait_for_ticks >= 0);
 
-/// SCO and GCO with this motor copy coordinates between RAM and EEPROM.
-constexpr int all_motors = 255;
-
 /// What an instruction does to the parameter it names.
 Access wanted_access(Opcode opcode) {
   switch (opcode) {

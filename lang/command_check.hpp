@@ -11,6 +11,9 @@
 
 namespace opentmcl::lang {
 
+/// SCO and GCO with this motor copy coordinates between RAM and EEPROM. Source: S0 3.7.24.
+inline constexpr int all_motors = 255;
+
 /// Warns of what can be written in an instruction but will be refused by the module: operands out of their range,
 /// motors, axis and global parameters it lacks or does not let this instruction access, values they do not take.
 /// `statement` is what `command` was made of, all its operands written or optional.

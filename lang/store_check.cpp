@@ -5,14 +5,12 @@
 
 #include "firmware/spec/instructions.hpp"
 #include "firmware/spec/lookup.hpp"
+#include "lang/command_check.hpp"
 #include "lang/flow_cycles.hpp"
 #include "lang/program_check.hpp"
 
 namespace opentmcl::lang {
 namespace {
-
-/// SCO with this motor copies coordinates to the EEPROM. Source: S0 3.7.24.
-constexpr int all_motors = 255;
 
 bool is_stored_when_written(const ParameterColumn& column) {
   return allows(column.access, Access::a);
