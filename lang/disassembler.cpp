@@ -97,14 +97,15 @@ DisassembledInstruction disassemble_instruction(const Command& command, const Mo
   return write_instruction(command, module, [](std::int32_t) { return false; });
 }
 
-std::string instruction_comment(const Command& command, const ModuleDescription& module, const PhysicalScale& scale) {
+std::string instruction_comment(const Command& command, const ModuleDescription& module,
+                                const units::PhysicalScale& scale) {
   const InstructionSpec* const instruction = find_instruction(command.opcode, module.id);
   if (!is_instruction(instruction)) return {};
   std::string comment;
   for (const OperandSpec& operand : instruction->operands) {
     const std::string_view name = name_of_operand(operand, command, module);
     const std::string value =
-        short_physical_value(unit_of_operand(operand, command, module), operand_value(command, operand), scale);
+        units::short_physical_value(unit_of_operand(operand, command, module), operand_value(command, operand), scale);
     if (!comment.empty() && !value.empty()) comment += " = ";
     comment += name;
     comment += value;
@@ -123,10 +124,10 @@ Disassembly disassemble(const std::vector<Command>& commands, const ModuleDescri
   const auto add_label = [&](std::size_t address) {
     if (targets[address]) disassembly.text += label_name(address) + ":\n";
   };
-  PhysicalScale scale = factory_scale(module);
+  units::PhysicalScale scale = units::factory_scale(module);
   for (std::size_t address = 0; address < commands.size(); ++address) {
     add_label(address);
-    follow(commands[address], module, scale);
+    units::follow(commands[address], module, scale);
     DisassembledInstruction instruction = write_instruction(commands[address], module, is_label);
     if (instruction.text) {
       const std::string comment =

@@ -8,7 +8,7 @@
 
 #include "firmware/spec/modules.hpp"
 #include "firmware/wire/datagram.hpp"
-#include "lang/physical_value.hpp"
+#include "units/physical_value.hpp"
 
 namespace opentmcl::lang {
 
@@ -25,7 +25,8 @@ DisassembledInstruction disassemble_instruction(const Command& command, const Mo
 
 /// What an instruction is about, as a comment beside it says it: "maximum positioning speed = 35.8 rpm", "digital
 /// output 1", "500 ms". Empty where its words say it all.
-std::string instruction_comment(const Command& command, const ModuleDescription& module, const PhysicalScale& scale);
+std::string instruction_comment(const Command& command, const ModuleDescription& module,
+                                const units::PhysicalScale& scale);
 
 struct Inexpressible {
   std::size_t address;

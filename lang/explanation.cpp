@@ -44,8 +44,8 @@ Explanation explain_parameter(const Row& row, const char* what, const ModuleDesc
   explanation.lines.push_back(std::string(what) + " " + number + " of the " + module.name + ": " + row.name);
   explanation.lines.emplace_back(row.description);
   explanation.lines.push_back("Range: " + with_unit(range_text(column.minimum, column.maximum), row.unit));
-  const PhysicalScale scale = factory_scale(module);
-  explanation.lines.push_back("Default: " + number_with_physical_value(row.unit, column.default_value, scale));
+  const units::PhysicalScale scale = units::factory_scale(module);
+  explanation.lines.push_back("Default: " + units::number_with_physical_value(row.unit, column.default_value, scale));
   explanation.lines.push_back("Access: " + describe(column.access));
   return explanation;
 }
@@ -107,9 +107,9 @@ std::optional<Explanation> explain_global_parameter(const Command& command, cons
 }
 
 std::optional<Explanation> explain_number(const OperandSpec& operand, const Command& command,
-                                          const ModuleDescription& module, const PhysicalScale& scale) {
+                                          const ModuleDescription& module, const units::PhysicalScale& scale) {
   const std::int32_t value = operand_value(command, operand);
-  const std::string text = number_with_physical_value(unit_of_operand(operand, command, module), value, scale);
+  const std::string text = units::number_with_physical_value(unit_of_operand(operand, command, module), value, scale);
   const std::string range = operand.kind == OperandKind::value ? range_of_value(command, module) : std::string();
   if (text == std::to_string(value) && range.empty()) return std::nullopt;
   Explanation explanation;
@@ -209,7 +209,7 @@ Explanation explain(const IoPortSpec& port) {
 }
 
 std::optional<Explanation> explain_operand(const OperandSpec& operand, const Command& command,
-                                           const ModuleDescription& module, const PhysicalScale& scale) {
+                                           const ModuleDescription& module, const units::PhysicalScale& scale) {
   switch (operand.kind) {
     case OperandKind::axis_parameter:
       if (const AxisParameterSpec* const row = find_axis_parameter(command.type, module)) return explain(*row, module);

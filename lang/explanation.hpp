@@ -13,8 +13,8 @@
 #include "firmware/spec/modules.hpp"
 #include "firmware/wire/datagram.hpp"
 #include "lang/expression.hpp"
-#include "lang/physical_value.hpp"
 #include "lang/symbol_table.hpp"
+#include "units/physical_value.hpp"
 
 namespace opentmcl::lang {
 
@@ -44,6 +44,6 @@ Explanation explain(const IoPortSpec& port);
 /// What the number of an operand of `command` stands for: the parameter it chooses, or with `scale` what it is
 /// physically and in which range it may be. None where the number says it all.
 std::optional<Explanation> explain_operand(const OperandSpec& operand, const Command& command,
-                                           const ModuleDescription& module, const PhysicalScale& scale);
+                                           const ModuleDescription& module, const units::PhysicalScale& scale);
 
 }  // namespace opentmcl::lang

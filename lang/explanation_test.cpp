@@ -20,7 +20,7 @@ std::optional<Explanation> explain_operand_of(const Command& instruction, std::s
                                               const ModuleDescription& module = pd1161) {
   for (const InstructionSpec& row : instructions) {
     if (static_cast<std::uint8_t>(row.opcode) != instruction.opcode) continue;
-    return explain_operand(row.operands[index], instruction, module, factory_scale(module));
+    return explain_operand(row.operands[index], instruction, module, units::factory_scale(module));
   }
   return std::nullopt;
 }

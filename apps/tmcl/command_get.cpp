@@ -25,7 +25,7 @@ Result<void> run_get(const Context& context, const ParameterChoice& choice) {
   const Result<std::int32_t> value = choice.is_global() ? client.global_parameter(parameter->number, choice.bank())
                                                         : client.axis_parameter(parameter->number);
   if (!value) return value.error();
-  const Result<lang::PhysicalScale> scale = physical_scale(client, parameter->unit);
+  const Result<units::PhysicalScale> scale = physical_scale(client, parameter->unit);
   if (!scale) return scale.error();
 
   if (context.json) {
@@ -33,11 +33,11 @@ Result<void> run_get(const Context& context, const ParameterChoice& choice) {
                                 {"symbol", parameter->symbol},
                                 {"value", *value},
                                 {"unit", name_of(parameter->unit)},
-                                {"physical", lang::physical_value(parameter->unit, *value, *scale)}};
+                                {"physical", units::physical_value(parameter->unit, *value, *scale)}};
     if (choice.is_global()) data["bank"] = choice.bank_number;
     fmt::print("{}\n", data.dump());
   } else {
-    fmt::print("{}\n", lang::number_with_physical_value(parameter->unit, *value, *scale));
+    fmt::print("{}\n", units::number_with_physical_value(parameter->unit, *value, *scale));
   }
   return {};
 }

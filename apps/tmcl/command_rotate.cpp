@@ -24,15 +24,16 @@ Result<void> run_rotate(const Context& context, std::int32_t velocity) {
   if (!connection) return connection.error();
   client::Client& client = *connection->client;
   if (Result<void> rotated = client.rotate(velocity); !rotated) return rotated;
-  const Result<lang::PhysicalScale> scale = physical_scale(client, Unit::internal_velocity);
+  const Result<units::PhysicalScale> scale = physical_scale(client, Unit::internal_velocity);
   if (!scale) return scale.error();
   if (context.json) {
     fmt::print("{}\n",
                nlohmann::ordered_json{{"velocity", velocity},
-                                      {"physical", lang::physical_value(Unit::internal_velocity, velocity, *scale)}}
+                                      {"physical", units::physical_value(Unit::internal_velocity, velocity, *scale)}}
                    .dump());
   } else {
-    fmt::print(stderr, "rotating at {}\n", lang::number_with_physical_value(Unit::internal_velocity, velocity, *scale));
+    fmt::print(stderr, "rotating at {}\n",
+               units::number_with_physical_value(Unit::internal_velocity, velocity, *scale));
   }
   return {};
 }

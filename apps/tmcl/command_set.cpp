@@ -31,16 +31,16 @@ Result<void> run_set(const Context& context, const SetOptions& options) {
                              ? client.set_global_parameter(parameter->number, options.choice.bank(), options.value)
                              : client.set_axis_parameter(parameter->number, options.value);
   if (!written) return written;
-  const Result<lang::PhysicalScale> scale = physical_scale(client, parameter->unit);
+  const Result<units::PhysicalScale> scale = physical_scale(client, parameter->unit);
   if (!scale) return scale.error();
   if (context.json) {
     fmt::print("{}\n",
                nlohmann::ordered_json{{"number", parameter->number},
                                       {"value", options.value},
-                                      {"physical", lang::physical_value(parameter->unit, options.value, *scale)}}
+                                      {"physical", units::physical_value(parameter->unit, options.value, *scale)}}
                    .dump());
   } else {
-    fmt::print(stderr, "set to {}\n", lang::number_with_physical_value(parameter->unit, options.value, *scale));
+    fmt::print(stderr, "set to {}\n", units::number_with_physical_value(parameter->unit, options.value, *scale));
   }
   return {};
 }

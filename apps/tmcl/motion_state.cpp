@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "firmware/module/module.hpp"
-#include "lang/physical_value.hpp"
+#include "units/physical_value.hpp"
 
 namespace opentmcl::app {
 
@@ -14,12 +14,12 @@ MotionState motion_state_of(VirtualModule& module) {
 }
 
 std::string describe(const MotionState& state) {
-  lang::PhysicalScale scale;
+  units::PhysicalScale scale;
   scale.pulse_divisor = state.pulse_divisor;
   scale.microstep_resolution = state.microstep_resolution;
-  const double frequency = lang::microsteps_per_second(state.velocity, scale);
+  const double frequency = units::microsteps_per_second(state.velocity, scale);
   return fmt::format("position {:11d}  speed {:5d} = {:8.2f} rpm  program {}", state.position, state.velocity,
-                     lang::turns_per_minute(frequency, scale), client::name_of(state.program));
+                     units::turns_per_minute(frequency, scale), client::name_of(state.program));
 }
 
 }  // namespace opentmcl::app

@@ -9,7 +9,7 @@ namespace opentmcl::app {
 
 using client::Client;
 using client::Result;
-using lang::PhysicalScale;
+using units::PhysicalScale;
 
 namespace {
 
@@ -35,7 +35,7 @@ Result<PhysicalScale> read(Client& client, std::initializer_list<ScalePart> part
 Result<PhysicalScale> scale_of_currents(Client& client) {
   const Result<const ModuleDescription*> module = module_of(client);
   if (!module) return module.error();
-  return lang::factory_scale(**module);
+  return units::factory_scale(**module);
 }
 
 }  // namespace

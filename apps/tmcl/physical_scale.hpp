@@ -5,11 +5,11 @@
 
 #include "client/client.hpp"
 #include "firmware/spec/parameter_rows.hpp"
-#include "lang/physical_value.hpp"
+#include "units/physical_value.hpp"
 
 namespace opentmcl::app {
 
 /// The numbers `unit` depends on, as the module has them now; those it does not depend on are not asked for.
-client::Result<lang::PhysicalScale> physical_scale(client::Client& client, Unit unit);
+client::Result<units::PhysicalScale> physical_scale(client::Client& client, Unit unit);
 
 }  // namespace opentmcl::app

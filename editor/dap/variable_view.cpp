@@ -18,7 +18,7 @@
 #include "lang/assembler.hpp"
 #include "lang/diagnostic.hpp"
 #include "lang/operand_meaning.hpp"
-#include "lang/physical_value.hpp"
+#include "units/physical_value.hpp"
 
 namespace opentmcl::editor::dap {
 
@@ -320,7 +320,7 @@ Result<std::string> VariableView::expression_of(std::int64_t reference, const st
 
 Result<std::string> VariableView::with_physical_value(Unit unit, std::int32_t value) const {
   if (unit == Unit::none) return std::to_string(value);
-  lang::PhysicalScale scale = lang::factory_scale(engine_.program().module());
+  units::PhysicalScale scale = units::factory_scale(engine_.program().module());
   const std::pair<AxisParameter, std::int32_t*> parts[] = {
       {AxisParameter::pulse_divisor, &scale.pulse_divisor},
       {AxisParameter::ramp_divisor, &scale.ramp_divisor},
@@ -330,7 +330,7 @@ Result<std::string> VariableView::with_physical_value(Unit unit, std::int32_t va
     if (!read) return read.error();
     *part = *read;
   }
-  return lang::number_with_physical_value(unit, value, scale);
+  return units::number_with_physical_value(unit, value, scale);
 }
 
 Result<std::string> VariableView::value_of(const std::string& text) const {

@@ -16,16 +16,16 @@
 #include "lang/operand_field.hpp"
 #include "lang/operand_meaning.hpp"
 #include "lang/operand_values.hpp"
-#include "lang/physical_value.hpp"
+#include "units/physical_value.hpp"
 
 namespace opentmcl::editor::lsp {
 
 using lang::Explanation;
 using lang::OperandValues;
-using lang::PhysicalScale;
 using lang::SourceLine;
 using lang::Token;
 using lang::TokenRole;
+using units::PhysicalScale;
 
 namespace {
 
@@ -33,12 +33,12 @@ namespace {
 class ScaledLines {
  public:
   explicit ScaledLines(const View& view)
-      : view_(&view), lexer_(view.text()), scale_(lang::factory_scale(view.program.module())) {}
+      : view_(&view), lexer_(view.text()), scale_(units::factory_scale(view.program.module())) {}
 
   /// False behind the last line.
   bool next() {
     if (lexer_.at_end()) return false;
-    if (values_ && all_known()) lang::follow(values_->command, view_->program.module(), scale_);
+    if (values_ && all_known()) units::follow(values_->command, view_->program.module(), scale_);
     lang::read_source_line(lexer_, view_->text(), line_);
     values_.reset();
     if (line_.instruction != nullptr) {
@@ -215,7 +215,7 @@ json inlay_hints(const View& view, std::size_t begin, std::size_t end) {
       if (!name.empty()) add(written.last[-1], name, InlayHintKindCode::parameter);
       const Unit unit = lang::unit_of_operand(operand, command, module);
       const std::int32_t value = lang::operand_value(command, operand);
-      const std::string physical = lang::short_physical_value(unit, value, lines.scale());
+      const std::string physical = units::short_physical_value(unit, value, lines.scale());
       const bool says_more = unit != Unit::none && physical != std::to_string(value) && value != 0;
       if (says_more && !physical.empty()) add(written.last[-1], "= " + physical, InlayHintKindCode::type);
     }

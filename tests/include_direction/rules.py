@@ -64,7 +64,8 @@ RULES = (
     Rule("twin/chip", REGISTER_TABLES, TIMELESS),
     Rule("twin/physics", (), TIMELESS),
     Rule("twin/world", ("twin/chip", "twin/physics"), TIMELESS),
-    Rule("lang", ("firmware/spec", "firmware/wire"), STANDARD),
+    Rule("units", ("firmware/spec", "firmware/wire"), STANDARD),
+    Rule("lang", ("units", "firmware/spec", "firmware/wire"), STANDARD),
     # Scenarios: what happens to a module and its machine, read from TOML, and recordings of it.
     Rule(
         "scenario",
@@ -79,7 +80,7 @@ RULES = (
         ),
         STANDARD | {"toml++/toml.h", "nlohmann/json.hpp"},
     ),
-    Rule("client", ("firmware/spec", "firmware/wire"), ANY_SYSTEM_HEADER),
+    Rule("client", ("units", "firmware/spec", "firmware/wire"), ANY_SYSTEM_HEADER),
     # The debugger knows modules by their commands alone; what a twin can do beyond that it asks for by an interface.
     Rule("debug", ("client", "lang", "firmware/spec", "firmware/wire", "firmware/hal/time.hpp"), ANY_SYSTEM_HEADER),
     # Where that interface meets the twin.
@@ -110,18 +111,18 @@ RULES = (
     # A face of the debugger. How modules are found and sources read it is told by a function that apps/tmcl hands in.
     Rule(
         "editor/dap",
-        ("editor/message_*.hpp", "debug", "client", "lang", "firmware/spec", "firmware/wire"),
+        ("editor/message_*.hpp", "debug", "client", "lang", "units", "firmware/spec", "firmware/wire"),
         ANY_SYSTEM_HEADER,
     ),
-    Rule("editor/lsp", ("editor/message_*.hpp", "lang", "firmware/spec"), ANY_SYSTEM_HEADER),
+    Rule("editor/lsp", ("editor/message_*.hpp", "lang", "units", "firmware/spec"), ANY_SYSTEM_HEADER),
     Rule(
         "apps",
-        ("firmware", "boards/twin", "twin", "lang", "scenario", "client", "debug", "server", "editor"),
+        ("firmware", "boards/twin", "twin", "units", "lang", "scenario", "client", "debug", "server", "editor"),
         ANY_SYSTEM_HEADER,
     ),
     Rule(
         "tests",
-        ("firmware", "boards/twin", "twin", "lang", "scenario", "client", "debug", "server", "editor", "apps"),
+        ("firmware", "boards/twin", "twin", "units", "lang", "scenario", "client", "debug", "server", "editor", "apps"),
         ANY_SYSTEM_HEADER,
     ),
 )

@@ -1,4 +1,4 @@
-#include "lang/physical_value.hpp"
+#include "units/physical_value.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -7,10 +7,13 @@
 
 #include "firmware/spec/axis_parameters.hpp"
 #include "firmware/spec/instructions.hpp"
-#include "lang/assembling_test.hpp"
 
-namespace opentmcl::lang {
+namespace opentmcl::units {
 namespace {
+
+Command command(Opcode opcode, int type, int motor = 0, std::int32_t value = 0) {
+  return {static_cast<std::uint8_t>(opcode), static_cast<std::uint8_t>(type), static_cast<std::uint8_t>(motor), value};
+}
 
 Command set_parameter(AxisParameter parameter, std::int32_t value, int motor = 0) {
   return command(Opcode::sap, static_cast<int>(parameter), motor, value);
@@ -101,4 +104,4 @@ RC_GTEST_PROP(PhysicalValue, IsFollowedThroughWhatTheModuleTakesOnly, (std::int3
 }
 
 }  // namespace
-}  // namespace opentmcl::lang
+}  // namespace opentmcl::units

@@ -8,7 +8,7 @@
 #include "firmware/spec/parameter_rows.hpp"
 #include "firmware/wire/datagram.hpp"
 
-namespace opentmcl::lang {
+namespace opentmcl::units {
 
 inline constexpr double chip_clock = 16e6;  ///< Hz, of the TMC429
 
@@ -47,4 +47,4 @@ std::string short_physical_value(Unit unit, std::int32_t value, const PhysicalSc
 /// and the number alone where it says it all.
 std::string number_with_physical_value(Unit unit, std::int32_t value, const PhysicalScale& scale);
 
-}  // namespace opentmcl::lang
+}  // namespace opentmcl::units

@@ -1,4 +1,4 @@
-#include "lang/physical_value.hpp"
+#include "units/physical_value.hpp"
 
 #include <charconv>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "firmware/spec/instructions.hpp"
 #include "firmware/spec/lookup.hpp"
 
-namespace opentmcl::lang {
+namespace opentmcl::units {
 namespace {
 
 std::string fixed(double value, int decimals) {
@@ -160,4 +160,4 @@ std::string number_with_physical_value(Unit unit, std::int32_t value, const Phys
   return physical.compare(0, number.size() + 1, number + " ") == 0 ? physical : number + " = " + physical;
 }
 
-}  // namespace opentmcl::lang
+}  // namespace opentmcl::units
