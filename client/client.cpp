@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "client/commands.hpp"
 #include "firmware/spec/instructions.hpp"
 
 namespace opentmcl::client {
@@ -15,13 +16,6 @@ constexpr Duration silence = std::chrono::milliseconds(10);
 
 /// A line that never falls silent is not a TMCL module's.
 constexpr Duration resynchronisation_limit = std::chrono::seconds(1);
-
-constexpr Command make_command(Opcode opcode, std::uint8_t type, std::uint8_t motor, std::int32_t value) {
-  return {static_cast<std::uint8_t>(opcode), type, motor, value};
-}
-
-constexpr std::uint8_t absolute = mvp_mode_words[0].value;
-constexpr std::uint8_t relative = mvp_mode_words[1].value;
 
 std::string describe(const Command& command) {
   for (const InstructionSpec& row : instructions) {
@@ -189,51 +183,101 @@ Result<void> Client::change(const Command& command) {
 Result<std::int32_t> Client::axis_parameter(std::uint8_t number, std::uint8_t motor) {
   // Reading the extended error flags clears them: what a lost answer said is gone.
   const bool repeatable = number != static_cast<std::uint8_t>(AxisParameter::extended_error_flags);
-  return read(make_command(Opcode::gap, number, motor, 0), repeatable);
+  return read(commands::get_axis_parameter(number, motor), repeatable);
 }
 
 Result<void> Client::set_axis_parameter(std::uint8_t number, std::int32_t value, std::uint8_t motor) {
-  return change(make_command(Opcode::sap, number, motor, value));
+  return change(commands::set_axis_parameter(number, value, motor));
+}
+
+Result<void> Client::store_axis_parameter(std::uint8_t number, std::uint8_t motor) {
+  return change(commands::store_axis_parameter(number, motor));
+}
+
+Result<void> Client::restore_axis_parameter(std::uint8_t number, std::uint8_t motor) {
+  return change(commands::restore_axis_parameter(number, motor));
 }
 
 Result<std::int32_t> Client::global_parameter(std::uint8_t number, Bank bank) {
-  return read(make_command(Opcode::ggp, number, static_cast<std::uint8_t>(bank), 0), true);
+  return read(commands::get_global_parameter(number, bank), true);
 }
 
 Result<void> Client::set_global_parameter(std::uint8_t number, Bank bank, std::int32_t value) {
-  return change(make_command(Opcode::sgp, number, static_cast<std::uint8_t>(bank), value));
+  return change(commands::set_global_parameter(number, bank, value));
+}
+
+Result<void> Client::store_global_parameter(std::uint8_t number, Bank bank) {
+  return change(commands::store_global_parameter(number, bank));
+}
+
+Result<void> Client::restore_global_parameter(std::uint8_t number, Bank bank) {
+  return change(commands::restore_global_parameter(number, bank));
 }
 
 Result<void> Client::rotate(std::int32_t velocity, std::uint8_t motor) {
-  if (velocity < 0) return change(make_command(Opcode::rol, 0, motor, -velocity));
-  return change(make_command(Opcode::ror, 0, motor, velocity));
+  return change(commands::rotate(velocity, motor));
 }
 
 Result<void> Client::move_to(std::int32_t position, std::uint8_t motor) {
-  return change(make_command(Opcode::mvp, absolute, motor, position));
+  return change(commands::move_to(position, motor));
 }
 
 Result<void> Client::move_by(std::int32_t distance, std::uint8_t motor) {
-  return change(make_command(Opcode::mvp, relative, motor, distance));
+  return change(commands::move_by(distance, motor));
+}
+
+Result<void> Client::move_to_coordinate(std::uint8_t coordinate, std::uint8_t motor) {
+  return change(commands::move_to_coordinate(coordinate, motor));
 }
 
 Result<void> Client::stop(std::uint8_t motor) {
-  return change(make_command(Opcode::mst, 0, motor, 0));
+  return change(commands::stop(motor));
+}
+
+Result<void> Client::start_reference_search(std::uint8_t motor) {
+  return change(commands::start_reference_search(motor));
+}
+
+Result<void> Client::stop_reference_search(std::uint8_t motor) {
+  return change(commands::stop_reference_search(motor));
+}
+
+Result<std::int32_t> Client::reference_search_status(std::uint8_t motor) {
+  return read(commands::reference_search_status(motor), true);
+}
+
+Result<std::int32_t> Client::input_output(std::uint8_t port, IoBank bank) {
+  return read(commands::get_input_output(port, bank), true);
+}
+
+Result<void> Client::set_output(std::uint8_t port, IoBank bank, std::int32_t value) {
+  return change(commands::set_output(port, bank, value));
+}
+
+Result<std::int32_t> Client::coordinate(std::uint8_t number, std::uint8_t motor) {
+  return read(commands::get_coordinate(number, motor), true);
+}
+
+Result<void> Client::set_coordinate(std::uint8_t number, std::int32_t position, std::uint8_t motor) {
+  return change(commands::set_coordinate(number, position, motor));
+}
+
+Result<void> Client::capture_coordinate(std::uint8_t number, std::uint8_t motor) {
+  return change(commands::capture_coordinate(number, motor));
 }
 
 Result<void> Client::start_program() {
-  if (Result<void> reset = change(make_command(Opcode::reset_application, 0, 0, 0)); !reset) return reset;
-  return change(make_command(Opcode::run_application, 0, 0, 0));
+  if (Result<void> reset = change(commands::reset_application()); !reset) return reset;
+  return change(commands::run_application());
 }
 
 Result<void> Client::stop_program() {
-  return change(make_command(Opcode::stop_application, 0, 0, 0));
+  return change(commands::stop_application());
 }
 
 Result<ProgramStatus> Client::program_status() {
-  constexpr std::uint8_t with_program_counter = 1;
   const Result<std::int32_t> value =
-      read(make_command(Opcode::get_application_status, with_program_counter, 0, 0), true);
+      read(commands::get_application_status(commands::ApplicationStatus::with_program_counter), true);
   if (!value) return value.error();
   const auto bits = static_cast<std::uint32_t>(*value);
   return ProgramStatus{static_cast<ProgramStatus::State>(bits >> 24), (bits >> 16 & 0xFF) != 0,
@@ -241,18 +285,15 @@ Result<ProgramStatus> Client::program_status() {
 }
 
 Result<std::int32_t> Client::accumulator() {
-  constexpr std::uint8_t of_accumulator = 2;
-  return read(make_command(Opcode::get_application_status, of_accumulator, 0, 0), true);
+  return read(commands::get_application_status(commands::ApplicationStatus::accumulator), true);
 }
 
 Result<std::int32_t> Client::x_register() {
-  constexpr std::uint8_t of_x = 3;
-  return read(make_command(Opcode::get_application_status, of_x, 0, 0), true);
+  return read(commands::get_application_status(commands::ApplicationStatus::x_register), true);
 }
 
 Result<FirmwareVersion> Client::firmware_version() {
-  constexpr std::uint8_t as_numbers = 1;
-  const Result<std::int32_t> value = read(make_command(Opcode::get_firmware_version, as_numbers, 0, 0), true);
+  const Result<std::int32_t> value = read(commands::get_firmware_version(), true);
   if (!value) return value.error();
   const auto bits = static_cast<std::uint32_t>(*value);
   return FirmwareVersion{static_cast<std::uint16_t>(bits >> 16), static_cast<std::uint8_t>(bits >> 8),
@@ -260,8 +301,7 @@ Result<FirmwareVersion> Client::firmware_version() {
 }
 
 Result<std::string> Client::firmware_version_text() {
-  constexpr std::uint8_t as_text = 0;
-  const Result<Datagram> reply = exchange_raw(make_command(Opcode::get_firmware_version, as_text, 0, 0));
+  const Result<Datagram> reply = exchange_raw(commands::get_firmware_version_text());
   if (!reply) return reply.error();
   const std::string text(reply->bytes + 1, reply->bytes + datagram_size);
   const bool printable = std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; });

@@ -7,6 +7,7 @@
 #include "client/transport.hpp"
 #include "firmware/spec/axis_parameters.hpp"
 #include "firmware/spec/global_parameters.hpp"
+#include "firmware/spec/io_ports.hpp"
 #include "firmware/spec/modules.hpp"
 #include "firmware/wire/datagram.hpp"
 
@@ -76,9 +77,15 @@ class Client {
     return set_axis_parameter(static_cast<std::uint8_t>(parameter), value, motor);
   }
 
+  /// To the EEPROM, and from there.
+  Result<void> store_axis_parameter(std::uint8_t number, std::uint8_t motor = 0);
+  Result<void> restore_axis_parameter(std::uint8_t number, std::uint8_t motor = 0);
+
   /// @param number global parameter or user variable 0…255
   Result<std::int32_t> global_parameter(std::uint8_t number, Bank bank);
   Result<void> set_global_parameter(std::uint8_t number, Bank bank, std::int32_t value);
+  Result<void> store_global_parameter(std::uint8_t number, Bank bank);
+  Result<void> restore_global_parameter(std::uint8_t number, Bank bank);
 
   /// @param velocity internal units, -2047…2047; negative turns left
   Result<void> rotate(std::int32_t velocity, std::uint8_t motor = 0);
@@ -86,7 +93,22 @@ class Client {
   Result<void> move_to(std::int32_t position, std::uint8_t motor = 0);
   /// @param distance microsteps from the actual position
   Result<void> move_by(std::int32_t distance, std::uint8_t motor = 0);
+  /// @param coordinate 0…20, of which the module refuses those it does not have
+  Result<void> move_to_coordinate(std::uint8_t coordinate, std::uint8_t motor = 0);
   Result<void> stop(std::uint8_t motor = 0);
+
+  Result<void> start_reference_search(std::uint8_t motor = 0);
+  Result<void> stop_reference_search(std::uint8_t motor = 0);
+  /// 0 when no search is running, else the state of the search.
+  Result<std::int32_t> reference_search_status(std::uint8_t motor = 0);
+
+  Result<std::int32_t> input_output(std::uint8_t port, IoBank bank);
+  Result<void> set_output(std::uint8_t port, IoBank bank, std::int32_t value);
+
+  /// Stored positions, in microsteps.
+  Result<std::int32_t> coordinate(std::uint8_t number, std::uint8_t motor = 0);
+  Result<void> set_coordinate(std::uint8_t number, std::int32_t position, std::uint8_t motor = 0);
+  Result<void> capture_coordinate(std::uint8_t number, std::uint8_t motor = 0);
 
   /// From the beginning, with cleared registers.
   Result<void> start_program();
